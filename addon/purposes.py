@@ -48,6 +48,8 @@ TRADES = {
     "SCAN_SURFACE": "reverse engineering, CAD",
 }
 EASED_FIRST = {"POINTS"}
+# jobs on the vertices themselves, so never on those that a modifier makes
+OWN_VERTICES = {"HULL", *EASED_FIRST}
 # jobs that are operators of their own, not settings of Fair Surface
 OPERATORS = {"SCAN_SURFACE": "fairing_fit"}
 # settings that may be changed without changing the job

@@ -121,7 +121,9 @@ def are_mirrored(sources: Iterable[Object]) -> bool:
 
 
 def mirror_axis(sources: Iterable[Object]) -> str:
-    """The axis of the halves that Mirror completes under Subdivision Surface, as `X`; empty for other objects."""
+    """The axis of the halves that Mirror completes, alone or under Subdivision Surface, as `X`; empty for other
+    objects.
+    """
     axes = {_mirrored_axes(source) for source in sources}
     axis = axes.pop() if len(axes) == 1 else ""
     return axis if len(axis) == 1 else ""
@@ -129,7 +131,8 @@ def mirror_axis(sources: Iterable[Object]) -> str:
 
 def _mirrored_axes(source: Object) -> str:
     shown: list[Any] = [m for m in source.modifiers if m.show_viewport]
-    if [m.type for m in shown] != ["MIRROR", "SUBSURF"] or shown[0].mirror_object is not None:
+    kinds = [m.type for m in shown]
+    if kinds not in (["MIRROR"], ["MIRROR", "SUBSURF"]) or shown[0].mirror_object is not None:
         return ""
     return "".join(axis for axis, is_used in zip("XYZ", shown[0].use_axis) if is_used)
 

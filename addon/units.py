@@ -33,6 +33,7 @@ class Units:
 
     known: tuple[tuple[str, float], ...]  # symbols, and metres in each; empty: plain numbers
     scale: float  # metres in a scene unit
+    least: float = 1.0  # of a unit, below which a length is in the next smaller one
 
     @classmethod
     def of(cls, scene: Any) -> "Units":
@@ -42,7 +43,12 @@ class Units:
         named = _METRIC if settings.system == "METRIC" else _IMPERIAL
         # None if the scene chooses automatically: ADAPTIVE
         chosen = named.get(settings.length_unit)
-        return cls((chosen,) if chosen else tuple(named.values()), settings.scale_length)
+        if not chosen:
+            return cls(tuple(named.values()), settings.scale_length)
+        # a new file is in metres, but 0.000092 m is no length that a designer can read
+        small = named["MILLIMETERS" if named is _METRIC else "INCHES"]
+        known = (chosen, small) if small[1] < chosen[1] else (chosen,)
+        return cls(known, settings.scale_length, least=0.01)
 
     def lengths(self, longest: float, digits: int = DIGITS) -> Text:
         """A function that formats lengths in scene units, all in the one unit that suits the `longest`.
@@ -51,7 +57,9 @@ class Units:
         name, each = "", 1.0
         if self.known:
             metres = abs(longest) * self.scale or 1.0
-            name, each = next((unit for unit in self.known if unit[1] <= metres), self.known[-1])
+            name, each = next(
+                (unit for unit in self.known if not metres < self.least * unit[1]), self.known[-1]
+            )
 
         def text(length: float) -> str:
             seen = 0.0 if abs(length) < _ROUNDED * abs(longest) else length * self.scale / each
@@ -64,7 +72,9 @@ class Units:
         if not self.known:
             return digits_of(volume)
         cubic = volume * self.scale**3
-        name, each = next((u for u in self.known if u[1] ** 3 <= abs(cubic)), self.known[-1])
+        name, each = next(
+            (u for u in self.known if (self.least * u[1]) ** 3 <= abs(cubic)), self.known[-1]
+        )
         return f"{digits_of(cubic / each**3)} {name}³"
 
 

@@ -23,6 +23,7 @@ from ..settings import PatchOptions, Settings, is_evaluated
 from ..surfaces import neighbours
 from ..transfer.attributes import AttributeTransfer
 from ..units import Units
+from ..words import listed
 from . import colours, words
 
 Share = float | np.ndarray  # of a shape: one number, or one a control vertex
@@ -150,7 +151,8 @@ class PatchJob(Job):
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self._units = Units.of(context.scene)
-        self.notes = []  # they concern data that only meshes carry
+        # others concern data that only meshes carry
+        self.notes = _modifiers_text(shown) if source is not None else []
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
@@ -269,6 +271,16 @@ class PatchJob(Job):
         source = self.source
         if source is not None and self.defects and not is_evaluated(self.settings):
             store_defects(context, source, self.defects)
+
+
+def _modifiers_text(surface: Object) -> list[str]:
+    """What the window shows of a surface and its patches do not have."""
+    names = [m.name for m in cast(Any, surface).modifiers if m.show_viewport]
+    return (
+        [f"The patches are without {listed(names)}: modifiers of a surface are left out."]
+        if names
+        else []
+    )
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:

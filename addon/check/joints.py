@@ -31,6 +31,7 @@ class Row:
         return f"{self.names[0]} and {self.names[1]}: kink {degrees(self.kink):.2f}°, curvature {100 * self.jump:.0f} %"
 
 
+_SINGLE = float(np.finfo(np.float32).eps)  # of a coordinate: smaller gaps are its rounding
 _rows: list[Row] = []
 
 
@@ -50,10 +51,11 @@ def measure(context: Context) -> list[Row]:
         if not len(joint.vertex) or (known is not None and known.kink >= joint.kink.max()):
             continue
         found.pop((b, a), None)
+        gap = float(joint.gap.max())
         found[a, b] = Row(
             Reference(objects[a]),
             (objects[a].name, objects[b].name),
-            float(joint.gap.max()),
+            gap if gap > _SINGLE * np.abs(meshes[a][0]).max() else 0.0,
             float(joint.kink.max()),
             float(joint.jump.max()),
             int(joint.vertex[np.argmax(joint.kink)]),

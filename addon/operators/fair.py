@@ -118,13 +118,16 @@ class Fairing(ExplainedPoll, ModalRun):
         with nothing_left_behind():
             self._written = [job.write(context) for job in jobs]
         for job in jobs:
-            for sentence in job.notes:
-                self.report({"INFO"}, f"{job.name}: {sentence}")
-            for sentence in job.warnings():
-                self.report({"WARNING"}, sentence)
+            self.tell(job)
         if not busy:
             select_only(context, self._written)
         self.after(context, jobs)
+
+    def tell(self, job: Job) -> None:
+        for sentence in job.notes:
+            self.report({"INFO"}, f"{job.name}: {sentence}")
+        for sentence in job.warnings():
+            self.report({"WARNING"}, sentence)
 
     def make_jobs(self, context: Context) -> list[Job]:
         """The jobs to compute; raises JobError."""

@@ -81,7 +81,7 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
             parts.append(f"{len(made.creases)} edges creased")
         if made.is_crowded:
             self.report({"WARNING"}, _CROWDED)
-        bending = set_job(context, "HULL", [target])
+        bending, _ = set_job(context, "HULL", [target])
         return ", ".join(parts) + (f". {bending}" if bending else "")
 
 

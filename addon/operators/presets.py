@@ -6,8 +6,8 @@ A preset is a script that sets the active operator's properties, like those of B
 panel runs and saves the same scripts with its settings in place of the operator.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict
+from collections.abc import Sequence
+from dataclasses import asdict, replace
 from typing import Any, cast
 
 import bpy
@@ -27,6 +27,7 @@ from ..purposes import (
     EASED_FIRST,
     FOLDER,
     OPERATORS,
+    OWN_VERTICES,
     PRESET_FOLDER,
     PURPOSES,
     preset_file,
@@ -34,6 +35,7 @@ from ..purposes import (
 from ..settings import NAMES, Settings, are_mirrored, mirror_axis
 from ..transfer.seams import half_axes
 from ..ui.active import active_settings, fairing_operator, remembered
+from ..yard.hull_mesh import sharp_in_middle
 from .fair import can_fair
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
@@ -88,42 +90,59 @@ def unregister() -> None:
 _UNDO = True
 
 
-def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
-    """Gives the panel the settings of a job for these `sources`; sentences on what their shapes change."""
+def set_job(
+    context: Context, purpose: str, sources: Sequence[Object]
+) -> tuple[str, dict[str, Any]]:
+    """Gives the panel the settings of a job for these `sources`; sentences on what their shapes change, and what the
+    next surface has beside the panel's settings.
+    """
     cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file(purpose)))
     panel = active_settings(context)
     found = [source_of(source) or source for source in sources]
     said = []
-    if purpose not in EASED_FIRST and panel.symmetry_plane == "NONE" and are_mirrored(found):
+    whole = whole_of(context, purpose, sources)
+    is_own = purpose in OWN_VERTICES and mirror_axis(found)
+    if not (is_own or whole) and panel.symmetry_plane == "NONE" and are_mirrored(found):
         panel.mesh_source = "EVALUATED"
         said.append("The whole mesh is faired, with its Mirror modifier")
+    if whole.get("symmetry_plane") == "NONE":
+        said.append("Both halves keep the angle at which they meet")
     if purpose == "HULL":
+        settings = replace(Settings.of(panel), **whole)
         for source in found:
             cage = _cage(context, source)
-            if reason := why_bending(cage, Settings.of(panel)):
+            if reason := why_bending(cage, settings) or _why_round(cage, settings):
                 panel.energy = "THIN_PLATE"
                 said.append(f"Bending in place of Flow Lines for {source.name}: {reason}")
                 if has_flat_ends(cage):
                     panel.use_crease_angle, panel.crease_angle = True, SHARP
                     said.append(f"Edges folded by {np.degrees(SHARP):.0f}° and more are sharp")
                 break
-    return ". ".join(said)
+    return ". ".join(said), whole
 
 
-def _whole(context: Context, sources: Sequence[Object]) -> dict[str, Any]:
-    """Settings by which the next surface of halves under Mirror and Subdivision Surface is the whole. They are not
-    those of the panel, which the next mesh gets too.
+def _why_round(cage: ControlArrays, settings: Settings) -> str:
+    """What to crease if the symmetry plane rounds a sharp stem or keel, from which Flow Lines swell."""
+    axis = settings.symmetry_plane
+    is_rounded = axis != "NONE" and sharp_in_middle(cage, axis, settings)[0].any()
+    return "crease stem and keel where they are sharp (Shift E, then 1)" if is_rounded else ""
+
+
+def whole_of(context: Context, purpose: str, sources: Sequence[Object]) -> dict[str, Any]:
+    """Settings by which the next surface of halves under Mirror is the whole. They are not those of the panel, which
+    the next mesh gets too. Halves that meet at an angle keep it where the job holds their vertices.
     """
     axis = mirror_axis(sources)
     is_set = remembered(context) is not None or active_settings(context).symmetry_plane != "NONE"
-    if is_set or not axis or not all(_is_half(context, source, axis) for source in sources):
+    if is_set or not axis or (are_mirrored(sources) and purpose not in OWN_VERTICES):
         return {}
-    return {"symmetry_plane": axis, "copy_modifiers": True}
-
-
-def _is_half(context: Context, source: Object, axis: str) -> bool:
-    with control_mesh(context, source) as mesh:
-        return "XYZ".index(axis) in half_axes(read_mesh(mesh))
+    cages = [_cage(context, source) for source in sources]
+    if not all("XYZ".index(axis) in half_axes(cage) for cage in cages):
+        return {}
+    settings = Settings.of(active_settings(context))
+    edges = [sharp_in_middle(cage, axis, settings) for cage in cages]
+    is_sharp = purpose in OWN_VERTICES and all((new | marked).all() for new, marked in edges)
+    return {"symmetry_plane": "NONE" if is_sharp else axis, "copy_modifiers": True}
 
 
 def _cage(context: Context, source: Object) -> ControlArrays:
@@ -170,10 +189,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         if path is None:
             return operators.fairing_in_place(how, _UNDO, vertices="MEASURED")
         sources = control_meshes(context)
-        said = set_job(context, self.purpose, sources)
+        said, whole = set_job(context, self.purpose, sources)
         if said:
             self.report({"INFO"}, said)
-        whole = {} if self.purpose in EASED_FIRST else _whole(context, sources)
         if self.purpose in EASED_FIRST:
             if how == "INVOKE_DEFAULT":
                 return operators.fairing_ease(how, _UNDO, fair_afterwards=True)

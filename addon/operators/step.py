@@ -73,8 +73,7 @@ class EXPORT_SCENE_OT_fairing_step(
         faulty = refused(jobs)
         for job in jobs:
             job.note_defects(context)
-            for sentence in job.warnings():
-                self.report({"WARNING"}, sentence)
+            self.tell(job)
         if faulty:
             names = ", ".join(job.name for job in faulty)
             raise JobError(

@@ -19,7 +19,7 @@ from ..fields import choice, length, number, switch, whole
 from ..memory import active_source
 from ..mesh.edited import edited
 from ..mesh.object import why_not_here
-from ..mesh.read import source_objects
+from ..mesh.read import control_meshes, source_objects
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import transformed, world_matrix
 from ..poll import Reason, in_edit_mode, in_mode, of_meshes
@@ -33,6 +33,7 @@ from ..units import Units
 from .fair import InMeshes, WholeFairing, can_fair
 from .mixins import Action, Shown
 from .modal import invoke_soon
+from .presets import whole_of
 from .written_files import ByFileBrowser, write_text_file
 
 
@@ -280,7 +281,8 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
         for job in jobs:
             job.write_key()
         if self.fair_afterwards:
-            invoke_soon(context, fairing_operator(context), {})
+            whole = whole_of(context, "POINTS", control_meshes(context))
+            invoke_soon(context, fairing_operator(context), whole)
 
 
 class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):

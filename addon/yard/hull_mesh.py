@@ -7,6 +7,8 @@ from difflib import SequenceMatcher
 import numpy as np
 
 from .. import core
+from ..control_arrays import ControlArrays
+from ..settings import Settings
 from .offsets import Offset, Offsets, is_buttock, is_diagonal, is_sharp, is_waterline
 
 
@@ -60,11 +62,29 @@ def hull_mesh(table: Offsets) -> HullMesh:
     places = np.array(positions, float).reshape(-1, 3)
     sides = {side for face in faces for side in _sides(face)}
     knuckles = {frozenset(pair) for pair in creases} & sides
-    marked = knuckles | _sharp_middle(places, faces, knuckles)
+    marked = knuckles | sharp_middle(places, faces, knuckles)
     return HullMesh(places, faces, names, sorted((min(p), max(p)) for p in marked))
 
 
-def _sharp_middle(
+def sharp_in_middle(
+    cage: ControlArrays, axis: str, settings: Settings
+) -> tuple[np.ndarray, np.ndarray]:
+    """(b,) bool of the border edges in a plane such as `X`: where both halves meet at an angle without a crease, and
+    creased ones.
+    """
+    places = np.roll(cage.positions, 1 - "XYZ".index(axis), axis=1)
+    places[np.abs(places[:, 1]) <= core.module().halves.SNAP * np.ptp(places), 1] = 0.0
+    faces = [face.tolist() for face in np.split(cage.corners, cage.offsets[1:-1])]
+    marked = {frozenset(pair) for pair in core.crease_edges(cage, settings).tolist()}
+    sharp = sharp_middle(places, faces, marked)
+    border = map(frozenset, cage.border_edges.tolist())
+    middle = [edge for edge in border if not places[list(edge), 1].any()]
+    return np.array([edge in sharp for edge in middle]), np.array(
+        [edge in marked for edge in middle]
+    )
+
+
+def sharp_middle(
     places: np.ndarray, faces: list[list[int]], knuckles: set[frozenset[int]]
 ) -> set[frozenset[int]]:
     """Edges in the middle plane where the sections of both halves meet at an angle."""

@@ -18,6 +18,7 @@ def scene(length_unit="METERS", system="METRIC", scale=1.0):
     [
         # a file of millimetres, read with no scale: the number is the one that Blender shows
         (scene(), 0.153, "0.153 m"),
+        (scene(), 0.0000923, "0.0923 mm"),
         (scene("MILLIMETERS", scale=0.001), 0.153, "0.153 mm"),
         (scene("MILLIMETERS"), 0.0042, "4.2 mm"),
         (scene("ADAPTIVE"), 0.0042, "4.2 mm"),

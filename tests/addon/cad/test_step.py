@@ -71,18 +71,20 @@ def test_place_scale_and_units_are_applied(tmp_path, unit):
     assert np.allclose(size, 2 * told * sqrt(6), rtol=1e-3)
 
 
-def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path):
+def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path, capfd):
     ball = sphere()
     assert "export_scene.fairing_step" not in draw(main.VIEW3D_PT_fairing)
     surface = fair(energy="TOTAL_CURVATURE", levels=2)
     assert "export_scene.fairing_step" in draw(main.VIEW3D_PT_fairing)
     surface.location = (7, 0, 0)
+    surface.modifiers.new("Twin", "MIRROR")
     bpy.context.scene.discrete_fairing.energy = "THIN_PLATE"  # for the next one
     ball.hide_set(False)
     ball.select_set(True)  # its surface stands for it
     path = tmp_path / "ball.step"
     export(path)
     assert names(path) == ["Ball Fair"]
+    assert "Ball Fair: The patches are without Twin" in capfd.readouterr().out
     found = step_files.read(path)
     assert found.solids == 1
     assert np.allclose(found.centre, (7000, 0, 0), atol=0.5)

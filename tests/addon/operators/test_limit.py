@@ -107,15 +107,6 @@ def test_automatic_is_through_where_it_is_not(given):
     np.testing.assert_array_equal(positions(result.data)[:count], positions(source.data))
 
 
-def test_the_modifier_is_not_applied_twice():
-    source = with_modifier(add_suzanne())
-    source.modifiers.new("Other", "TRIANGULATE")
-    result = fair(levels=1, copy_modifiers=True)
-    assert [m.type for m in result.modifiers] == ["TRIANGULATE"]
-    through = again(source, levels=1, copy_modifiers=True, interpolation="EXACT")
-    assert [m.type for m in through.modifiers] == ["TRIANGULATE"]
-
-
 @pytest.mark.parametrize("interpolation", ["AUTO", "LIMIT"])
 def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interpolation):
     source = with_modifier(add_suzanne())

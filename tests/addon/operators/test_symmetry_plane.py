@@ -3,6 +3,7 @@
 
 import bpy
 import numpy as np
+import pytest
 from lattices import lattice_faces
 from live_scenes import pull
 from scenes import add, add_sheet, again, faces_at_edges, positions, recompute
@@ -64,6 +65,29 @@ def test_stem_and_keel_of_half_a_hull_are_sharp():
     bpy.context.view_layer.update()
     assert seam(half, 1) == (72, 72)
     half.discrete_fairing_live.on = False
+
+
+@pytest.mark.parametrize("modifiers", [["MIRROR"], ["MIRROR", "SUBSURF"]], ids=len)
+@pytest.mark.parametrize("purpose", ["HULL", "POINTS"])
+def test_jobs_on_vertices_make_the_whole_hull_of_a_half_and_keep_its_keel(purpose, modifiers):
+    source = half_boat()
+    for kind in modifiers:
+        source.modifiers.new(kind, kind)
+    source.modifiers[0].use_axis = (False, True, False)
+    assert bpy.ops.object.fairing_for(purpose=purpose) == {"FINISHED"}
+    whole = bpy.context.object
+    assert [m.type for m in whole.modifiers] == ["MIRROR"] and seam(whole, 1) == (72, 72)
+    assert positions(whole.data)[:, 2].min() > -1e-3, "Flow Lines swelled below a keel made round"
+
+
+def test_a_hull_whose_keel_is_round_in_part_is_told_what_to_crease(capfd):
+    source = half_boat()
+    source.modifiers.new("Mirror", "MIRROR").use_axis = (False, True, False)
+    for vertex in source.data.vertices[16:]:
+        vertex.co.z = 0.02 * (6 - vertex.co.x) + vertex.co.y**2
+    assert bpy.ops.object.fairing_for(purpose="HULL") == {"FINISHED"}
+    assert bpy.context.object.discrete_fairing.energy == "THIN_PLATE"
+    assert "for Boat: crease stem and keel where they are sharp" in capfd.readouterr().out
 
 
 def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
