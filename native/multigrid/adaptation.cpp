@@ -41,9 +41,12 @@ bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
          is_expected_memory(3 * bytes / 2);  // with its matrix
 }
 
+// By the degree that a solve needs; or where earlier solves of the same system have together cost as
+// much as a factor, so that a level is never smoothed for much longer than that.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
-  return std::size_t(cycle_.degree) >=
-             least_degree_of_hard + unknowns(index) / unknowns_per_degree &&
+  const double degree =
+      std::max<double>(cycle_.degree, cycle_.levels[index].work / iterations_wanted);
+  return degree >= double(least_degree_of_hard + unknowns(index) / unknowns_per_degree) &&
          may_factor(index, limits);
 }
 

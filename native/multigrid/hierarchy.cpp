@@ -61,6 +61,7 @@ void Hierarchy::update(std::size_t top) {
     const OperatorVersion& now = level.op->version();
     if (now.unknowns != level.version.unknowns) level.lines.reset();
     if (level.lines && now.numbers != level.version.numbers) level.lines->refactor();
+    if (now.numbers != level.version.numbers) level.work = 0;
     level.version = now;
     spectrum += now.spectrum;
     if (std::exchange(level.spectrum, spectrum) != spectrum) level.largest_eigenvalue = 0;
@@ -80,6 +81,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits,
     cycle_.coarse->refactor();
     ++factors_;
   }
+  const bool may_promote = limits.may_adapt && adapts(cycle_.solves(index));
+  if (may_promote && is_too_hard(index, limits)) promote_to_coarsest(index);
   if (cycle_.solves(index)) {
     solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;
@@ -117,6 +120,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
                                          });
   out.iterations += result.iterations;
   out.residuals = result.history;
+  cycle_.levels[index].work += double(result.iterations) * cycle_.degree;
   return result;
 }
 

@@ -64,6 +64,7 @@ struct CycleLevel {
   LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
   std::unique_ptr<LineJacobi> lines;  // of the smoother; null: not yet sought
   double largest_eigenvalue = 0;      // 0: unknown
+  double work = 0;                    // iterations times degree, in solves of this K
   OperatorVersion version{};          // the version of the lines
   int spectrum = 0;  // the version of the eigenvalue: counted on all levels up to this one
   SmootherState state{};

@@ -39,9 +39,8 @@ void set_differences(const Element& element, double area, const FitRows& rows,
           (in_face ? 0.5 * (number(j, c) + number((j + size / 2) % size, c)) : number(j, c));
 }
 
-void set_energy(const ControlMesh& mesh, const Element& element, Chart chart, const FitRows& rows,
-                std::span<Stencils::Column> energy) {
-  const StiffSide side = stiff_side(mesh, element, chart);
+void set_energy(const ControlMesh& mesh, const Element& element, const StiffSide& side, Chart chart,
+                const FitRows& rows, std::span<Stencils::Column> energy) {
   const bool beside = side.line != Vec2::Zero();
   const double share = beside ? shorten(side, chart) : 1;
   set_differences(element, chart.area, beside ? fit(chart) : rows, energy);
@@ -49,6 +48,20 @@ void set_energy(const ControlMesh& mesh, const Element& element, Chart chart, co
     for (double& each : energy[j % energy.size()]) each *= share;
   stiffen_straight(mesh, element, chart, energy);
   stiffen_across(side, chart, energy);
+}
+
+// The fit, and the basis half-way to each neighbour.
+void set_transfer(const StiffSide& side, const Chart& chart, const FitRows& usual, float* rows,
+                  float* half) {
+  const bool beside = side.line != Vec2::Zero();
+  const FitRows fitted = beside ? fit_beside(side, chart) : usual;
+  for (std::size_t j = 0; j < chart.ring.size(); ++j) {
+    const Coefficients at = beside ? basis_beside(side, chart, j, 0.5) : basis(0.5 * chart.ring[j]);
+    for (std::size_t c = 0; c < 5; ++c) {
+      rows[5 * j + c] = float(fitted(Eigen::Index(c), Eigen::Index(j)));
+      half[5 * j + c] = float(at(Eigen::Index(c)));
+    }
+  }
 }
 
 void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Stencils& s) {
@@ -62,14 +75,9 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
   if (!s.has_fit[e]) return;
   Chart chart = chart_of(charts, element);
   const FitRows rows = fit(chart);
-  for (std::size_t j = 0; j < size && !in_face; ++j) {
-    const Coefficients half = basis(0.5 * chart.ring[j]);
-    for (std::size_t c = 0; c < 5; ++c) {
-      s.rows[5 * (first + j) + c] = float(rows(Eigen::Index(c), Eigen::Index(j)));
-      s.half[5 * (first + j) + c] = float(half(Eigen::Index(c)));
-    }
-  }
-  set_energy(mesh, element, std::move(chart), rows, {s.energy.data() + first, size});
+  const StiffSide side = stiff_side(mesh, element, chart);
+  if (!in_face) set_transfer(side, chart, rows, &s.rows[5 * first], &s.half[5 * first]);
+  set_energy(mesh, element, side, std::move(chart), rows, {s.energy.data() + first, size});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stencil/straight.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -142,12 +143,17 @@ StiffSide side_of_vertex(const ControlMesh& mesh, Index v, const Chart& chart) {
   return {first - last, begin + 1, end > begin ? end : end + place};
 }
 
+// The second difference in one direction, from the fit's coefficients.
+Vec3 second_in(const Vec2& direction) {
+  const double x = direction.x(), y = direction.y(), square = direction.squaredNorm();
+  return root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
+}
+
 // Multiplies the stiffness in one direction, by its second difference f_dd in the fit's coefficients.
 void multiply(double stiffness, const Vec2& direction, std::span<std::array<double, 3>> hessians) {
   const double square = direction.squaredNorm();
   if (!(square > 0)) return;
-  const double x = direction.x(), y = direction.y();
-  const Vec3 second = root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
+  const Vec3 second = second_in(direction);
   for (auto& numbers : hessians) {
     Eigen::Map<Vec3> hessian(numbers.data());
     hessian += (std::sqrt(stiffness) - 1) * second.dot(hessian) * second;
@@ -172,6 +178,23 @@ double shorten(const StiffSide& side, Chart& chart) {
   for (std::size_t j = side.begin; j < side.end; ++j) chart.ring[j % chart.ring.size()] *= share;
   chart.area *= 2 * other / (own + other);
   return share;
+}
+
+Coefficients basis_beside(const StiffSide& side, const Chart& chart, std::size_t j, double share) {
+  const Vec2 at = share * chart.ring[j];
+  Coefficients out = basis(at);
+  const std::size_t size = chart.ring.size(), from = (j + size - side.begin) % size;
+  if (from >= side.end - side.begin) return out;
+  const Vec2 across = Vec2(-side.line.y(), side.line.x()).normalized();
+  out.tail<3>() -= 0.5 * at.dot(across) * at.dot(across) * second_in(across);
+  return out;
+}
+
+FitRows fit_beside(const StiffSide& side, const Chart& chart) {
+  Eigen::Matrix<double, Eigen::Dynamic, 5> terms(Eigen::Index(chart.ring.size()), 5);
+  for (std::size_t j = 0; j < chart.ring.size(); ++j)
+    terms.row(Eigen::Index(j)) = basis_beside(side, chart, j, 1).transpose();
+  return terms.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,

@@ -9,6 +9,7 @@
 
 #include "grid/runs.h"
 #include "stencil/chart.h"
+#include "stencil/fit.h"
 
 namespace fairing {
 
@@ -26,6 +27,11 @@ StiffSide stiff_side(const ControlMesh& mesh, const Element& element, const Char
 // determine a quadratic, so that the edge would be a hinge. Returns their factor, at most 1: their
 // differences shrink with it.
 double shorten(const StiffSide& side, Chart& chart);
+
+// fit() and basis() of a quadratic that is linear across the line on the stiff side, so that values
+// between points bend no stiff face; `share` of the way to neighbour j.
+FitRows fit_beside(const StiffSide& side, const Chart& chart);
+Coefficients basis_beside(const StiffSide& side, const Chart& chart, std::size_t j, double share);
 
 // Multiplies the second difference in the direction in which an element's faces are straight; none
 // if not all of them are flat. An edge between two of them is straight itself. `hessians`: the last
