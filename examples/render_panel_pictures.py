@@ -42,11 +42,15 @@ RING_VIEW = View(2.95, turn=18, elevation=52, height=0.37, stripes=3)
 
 # of the sheet, along it, in heights of the picture; scattered as measured points are
 HEIGHTS = (0.22, 0.60, 0.42, 0.84, 0.50, 0.62, 0.22)
+EVEN = np.linspace(0.07, 0.93, len(HEIGHTS))
+# of a body with bevelled rims: its top and its walls are flat
+BODY = ((0.14, 0.10), (0.14, 0.62), (0.23, 0.80), (0.77, 0.80), (0.86, 0.62), (0.86, 0.10))
 TOLERANCE = 0.075
 SECTIONS = {
     "Exact": (("exact", 1.0),),
     "Approximate": (("approximate", 1.0),),
     "Limit": (("limit", 1.0),),
+    "Flats": (("flats", 1.0),),
     "Auto": (("limit", 0.45), ("exact", 1.0)),  # the strength of each line
 }
 SURFACE, VERTEX, CAGE = (0.25, 0.58, 0.92), (0.96, 0.55, 0.14), (0.55, 0.55, 0.55)
@@ -91,35 +95,39 @@ def draw_ring(settings, path):
         save(np.rint(load_pixels(tile) * SHADES) / SHADES, path, alpha=True)
 
 
-def sheet():
-    """Vertices and faces of a sheet with HEIGHTS along x, the same for all y."""
+def sheet(line):
+    """Vertices and faces of a sheet with a `line` of x and z along it, the same for all y."""
     across = range(-2, 3)
-    points = [
-        (x, y, z) for x, z in zip(np.linspace(0.07, 0.93, len(HEIGHTS)), HEIGHTS) for y in across
-    ]
-    rows, columns = len(HEIGHTS) - 1, len(across) - 1
+    points = [(x, y, z) for x, z in line for y in across]
+    rows, columns = len(line) - 1, len(across) - 1
     corners = [i * len(across) + j for i in range(rows) for j in range(columns)]
     return np.array(points), [(c, c + len(across), c + len(across) + 1, c + 1) for c in corners]
 
 
-def section(interpolation):
+def section(line, interpolation):
     """(n, 2) points of the surface in the middle of the sheet."""
-    points, faces = sheet()
-    surface = discrete_fairing.fair(
-        points, faces, levels=4, interpolation=interpolation, tolerance=TOLERANCE
-    ).vertices
+    points, faces = sheet(line)
+    settings = {"interpolation": interpolation, "tolerance": TOLERANCE}
+    if interpolation == "flats":
+        rows = np.arange(len(faces)).reshape(len(line) - 1, -1)
+        settings = {"flat_faces": rows[::2].ravel(), "metric_exponent": 0.95}
+    surface = discrete_fairing.fair(points, faces, levels=4, **settings).vertices
     middle = surface[np.abs(surface[:, 1]) < 1e-6]
-    return middle[np.argsort(middle[:, 0])][:, ::2]
+    # around the middle of the picture's lower side: neither line turns back
+    turn = (
+        np.arctan2(middle[:, 2], 0.5 - middle[:, 0]) if interpolation == "flats" else middle[:, 0]
+    )
+    return middle[np.argsort(turn)][:, ::2]
 
 
 def draw_section(parts, path):
     """The sections `parts` over the control polygon and its vertices."""
-    points, _ = sheet()
-    cage = points[points[:, 1] == 0][:, ::2]
+    line = BODY if parts == SECTIONS["Flats"] else list(zip(EVEN, HEIGHTS))
+    cage = np.array(line)
     picture = np.zeros((SIZE, SIZE, 4), np.float32)
     lay(picture, along(cage, 0.012), CAGE, 0.8)
     for interpolation, strength in parts:
-        lay(picture, along(section(interpolation), 0.036), SURFACE, strength)
+        lay(picture, along(section(line, interpolation), 0.036), SURFACE, strength)
     if parts == SECTIONS["Approximate"]:
         for vertex in cage:
             lay(

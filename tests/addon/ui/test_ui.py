@@ -16,7 +16,7 @@ from addon.purposes import FOLDER, PRESET_FOLDER
 from addon.registration import classes_of
 from addon.settings import NAMES, Settings
 from addon.ui import layout as settings_layout
-from addon.ui import main, menus
+from addon.ui import main, menus, pictures
 from addon.ui.layout import Sidebar
 
 
@@ -45,6 +45,8 @@ def test_every_setting_is_shown_somewhere():
     settings.interpolation = "LIMIT"
     log += [entry for cls in panels for entry in draw(cls)]
     assert set(NAMES) <= set(log)
+    names = settings_layout.INTERPOLATION_NAMES | settings_layout.ENERGY_NAMES
+    assert all((pictures.SETTINGS / f"{pictures.stem(name)}.png").is_file() for name in names)
 
 
 def near(**changes):
