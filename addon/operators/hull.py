@@ -3,6 +3,7 @@
 
 from collections.abc import Iterable
 from dataclasses import asdict, replace
+from itertools import compress
 from math import degrees, radians
 from typing import Any, cast
 
@@ -23,6 +24,7 @@ from ..mesh.shape_keys import mixed_positions
 from ..poll import IN_OBJECT_MODE, needs
 from ..settings import Settings
 from ..yard.closing import NotHalf, Whole, whole_hull
+from ..yard.hull_mesh import sharp_in_middle
 from ..yard.hydrostatics import Hydrostatics, NotClosed, Solid, hydrostatics, solid
 from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
@@ -45,7 +47,7 @@ class OBJECT_OT_fairing_close(Action, bpy.types.Operator):
         source = cast(Object, active_source(context))
         settings = None if source_of(active) is None else Settings.of(active.discrete_fairing)
         try:
-            closed = _closed(context, source)
+            closed = _closed(context, source, settings)
         except NotHalf as error:
             raise JobError(f"{source.name} is no half hull: {error}.") from error
         except NotClosed as error:
@@ -61,8 +63,10 @@ class OBJECT_OT_fairing_close(Action, bpy.types.Operator):
         return f"Closed: {_solid_text(found)}"
 
 
-def _closed(context: Context, source: Object) -> Object:
-    """A new control mesh beside `source`, with creased rims; raises NotHalf, NotClosed."""
+def _closed(context: Context, source: Object, settings: Settings | None) -> Object:
+    """A new control mesh beside `source`, with creased rims, and where the halves of a surface with these `settings`
+    meet at an angle; raises NotHalf, NotClosed.
+    """
     with control_mesh(context, source) as mesh:
         arrays = read_mesh(mesh)
         names = read_names(mesh)
@@ -81,6 +85,9 @@ def _closed(context: Context, source: Object) -> Object:
     weights = (
         {} if arrays.edge_crease is None else dict(zip(_pairs(arrays.edges), arrays.edge_crease))
     )
+    if settings is not None and settings.symmetry_plane == "NONE":
+        middle, sharp, _ = sharp_in_middle(arrays, "Y", settings)
+        weights |= dict.fromkeys(compress(middle, sharp), 1.0)
     _crease(mesh, made, weights)
     if names:
         write_names(mesh, [names[k] for k in made.origin.tolist()])

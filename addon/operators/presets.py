@@ -124,7 +124,7 @@ def set_job(
 def _why_round(cage: ControlArrays, settings: Settings) -> str:
     """What to crease if the symmetry plane rounds a sharp stem or keel, from which Flow Lines swell."""
     axis = settings.symmetry_plane
-    is_rounded = axis != "NONE" and sharp_in_middle(cage, axis, settings)[0].any()
+    is_rounded = axis != "NONE" and sharp_in_middle(cage, axis, settings)[1].any()
     return "crease stem and keel where they are sharp (Shift E, then 1)" if is_rounded else ""
 
 
@@ -141,7 +141,7 @@ def whole_of(context: Context, purpose: str, sources: Sequence[Object]) -> dict[
         return {}
     settings = Settings.of(active_settings(context))
     edges = [sharp_in_middle(cage, axis, settings) for cage in cages]
-    is_sharp = purpose in OWN_VERTICES and all((new | marked).all() for new, marked in edges)
+    is_sharp = purpose in OWN_VERTICES and all((new | marked).all() for _, new, marked in edges)
     return {"symmetry_plane": "NONE" if is_sharp else axis, "copy_modifiers": True}
 
 

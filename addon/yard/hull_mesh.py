@@ -68,9 +68,9 @@ def hull_mesh(table: Offsets) -> HullMesh:
 
 def sharp_in_middle(
     cage: ControlArrays, axis: str, settings: Settings
-) -> tuple[np.ndarray, np.ndarray]:
-    """(b,) bool of the border edges in a plane such as `X`: where both halves meet at an angle without a crease, and
-    creased ones.
+) -> tuple[list[frozenset[int]], np.ndarray, np.ndarray]:
+    """The border edges in a plane such as `X`, and (b,) bool of each: whether both halves meet there at an angle
+    without a crease, and whether it is creased.
     """
     places = np.roll(cage.positions, 1 - "XYZ".index(axis), axis=1)
     places[np.abs(places[:, 1]) <= core.module().halves.SNAP * np.ptp(places), 1] = 0.0
@@ -79,9 +79,9 @@ def sharp_in_middle(
     sharp = sharp_middle(places, faces, marked)
     border = map(frozenset, cage.border_edges.tolist())
     middle = [edge for edge in border if not places[list(edge), 1].any()]
-    return np.array([edge in sharp for edge in middle]), np.array(
-        [edge in marked for edge in middle]
-    )
+    kinds = [(edge in sharp, edge in marked) for edge in middle]
+    new, old = np.array(kinds, bool).reshape(-1, 2).T
+    return middle, new, old
 
 
 def sharp_middle(
