@@ -69,15 +69,8 @@ def test_flat_faces_move_where_their_vertices_do():
 def test_a_region_that_only_touches_is_tangent_to_flats_inside():
     points, faces, flat, _ = flat_parts.rounded_box(90, 60, 30, 4)
     region = np.setdiff1d(np.arange(len(faces)), flat[:1])
-    found = df.fair(
-        points,
-        faces,
-        LEVEL + 1,
-        region=region,
-        joint="position",
-        flat_faces=flat[1:],
-        metric_exponent=SPACING,
-    )
+    kept = {"flat_faces": flat[1:], "metric_exponent": SPACING}
+    found = df.fair(points, faces, LEVEL + 1, region=region, joint="position", **kept)
     _, pairs, angles = turns(found.vertices, found.faces[1])
     rim = (found.quad_polygon[pairs] == flat[-1]).sum(axis=1) == 1
     assert np.degrees(angles[rim].max()) < 3

@@ -30,15 +30,8 @@ def let_go(points, faces, vertex):
     """The move of a vertex that is free while all others are held."""
     weights = np.full(len(points), np.inf)
     weights[vertex] = 0.0
-    result = df.fair(
-        points,
-        faces,
-        levels=2,
-        interpolation="approximate",
-        weights=weights,
-        relative_residual=1e-6,
-    )
-    return result.vertices[vertex] - points[vertex]
+    options = {"interpolation": "approximate", "relative_residual": 1e-6}
+    return df.fair(points, faces, 2, weights=weights, **options).vertices[vertex] - points[vertex]
 
 
 MESHES = {

@@ -89,11 +89,18 @@ def _is_bevelled(parts: Parts, sharp: np.ndarray) -> bool:
 
 
 def _are_star_shaped(mesh: ControlMesh) -> bool:
-    """Whether all sides of each face are seen from the mean of its corners, where subdivision splits it."""
+    """Whether no side of a face is seen from behind by the mean of its corners, where subdivision splits it; seen
+    across a warped face it does no harm.
+    """
     spokes = mesh.positions[mesh.corners] - mesh.face_centres[mesh.face_of]
-    after = spokes[following(mesh.offsets)]
-    turned = (np.cross(spokes, after) * mesh.face_vectors[mesh.face_of]).sum(axis=1)
-    return bool((turned[mesh.face_sizes[mesh.face_of] > 4] > 0.0).all())
+    cross, vectors = (
+        np.cross(spokes, spokes[following(mesh.offsets)]),
+        mesh.face_vectors[mesh.face_of],
+    )
+    least = (
+        -np.cos(np.radians(SLIT)) * np.linalg.norm(cross, axis=1) * np.linalg.norm(vectors, axis=1)
+    )
+    return bool(((cross * vectors).sum(axis=1) > least)[mesh.face_sizes[mesh.face_of] > 4].all())
 
 
 def _has_slits(mesh: ControlMesh, sharp: np.ndarray) -> bool:
