@@ -53,16 +53,8 @@ def test_settings_by_vertex_edge_and_face_are_mirrored():
     tolerance = np.linspace(0, 0.05, len(points))
     crease = [[9, 13], [13, 17]]
     options = {"levels": 2, "interpolation": "approximate"}
-    half = df.fair(
-        points,
-        faces,
-        tolerance=tolerance,
-        crease_edges=crease,
-        corner_vertices=[10],
-        region=np.arange(12),
-        **HALF,
-        **options,
-    )
+    given = {"tolerance": tolerance, "crease_edges": crease, "corner_vertices": [10]}
+    half = df.fair(points, faces, region=np.arange(12), **given, **HALF, **options)
     both_points, both_faces = whole(points, faces)
     number = {tuple(p): i for i, p in enumerate(both_points.tolist())}
     image = np.array([number[tuple(p)] for p in (points * [1, -1, 1]).tolist()])

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 from lattices import lattice_faces
-from scenes import add, again, edit, fair, positions, refused
+from scenes import CUBE, add, again, edit, fair, positions, refused
 
 
 def test_source_is_hidden_and_shown_again_on_demand(source):
@@ -12,6 +12,14 @@ def test_source_is_hidden_and_shown_again_on_demand(source):
     assert source.hide_get() and not source.hide_viewport
     again(source, levels=1, hide_source=False)
     assert not source.hide_get()
+
+
+def test_one_bad_mesh_leaves_the_scene_as_it_was():
+    add("Box", *CUBE).select_set(True)
+    bad = add("Bad", [(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    before = set(bpy.data.objects), set(bpy.data.meshes)
+    refused("Bad", bpy.ops.object.fairing_surface, levels=1)
+    assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and bad.select_get()
 
 
 def pyramid(size=6):
