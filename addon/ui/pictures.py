@@ -61,12 +61,10 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
 def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
     """The options of a setting side by side, each under its picture; `labels`: short names."""
     layout.label(text=name_of(owner, name))
-    # more than four names beside one another are cut off
-    columns = len(labels) if len(labels) < 5 else 3
-    grid = layout.grid_flow(row_major=True, columns=columns, even_columns=True, align=True)
-    grid.use_property_split = False
+    row = layout.row(align=True)
+    row.use_property_split = False
     for key, label in labels.items():
-        column = grid.column(align=True)
+        column = row.column(align=True)
         column.template_icon(icon_value=icon(key), scale=_SMALL)
         column.prop_enum(owner, name, key, text=label)
 
