@@ -107,6 +107,14 @@ def test_automatic_is_through_where_it_is_not(given):
     np.testing.assert_array_equal(positions(result.data)[:count], positions(source.data))
 
 
+@pytest.mark.parametrize("interpolation", ["AUTO", "EXACT"])
+def test_the_modifier_is_not_applied_twice(interpolation):
+    source = with_modifier(add_suzanne())
+    source.modifiers.new("Other", "TRIANGULATE")
+    result = again(source, levels=1, copy_modifiers=True, interpolation=interpolation)
+    assert [m.type for m in result.modifiers] == ["TRIANGULATE"]
+
+
 @pytest.mark.parametrize("interpolation", ["AUTO", "LIMIT"])
 def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interpolation):
     source = with_modifier(add_suzanne())

@@ -15,11 +15,13 @@ def test_source_is_hidden_and_shown_again_on_demand(source):
 
 
 def test_one_bad_mesh_leaves_the_scene_as_it_was():
-    add("Box", *CUBE).select_set(True)
+    good = add("Box", *CUBE)
     bad = add("Bad", [(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    good.select_set(True)
     before = set(bpy.data.objects), set(bpy.data.meshes)
     refused("Bad", bpy.ops.object.fairing_surface, levels=1)
-    assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and bad.select_get()
+    assert (set(bpy.data.objects), set(bpy.data.meshes)) == before
+    assert not good.hide_get() and bad.select_get() and good.select_get()
 
 
 def pyramid(size=6):

@@ -97,8 +97,11 @@ def test_a_refusal_is_a_sentence_and_leaves_the_mode():
     refused("Select a mesh object first", bpy.ops.object.fairing_for, purpose="HULL")
     add("Triangle", *TRIANGLE)
     refused("^Error: Triangle: Select more faces", bpy.ops.object.fairing_for, purpose="SCAN_PATCH")
-    add_ball("Scan", 3, noise=0.004).shape_key_add(name="Basis")
+    scan = add_ball("Scan", 3, noise=0.004)
+    scan.shape_key_add(name="Basis")
+    before = positions(scan.data)
     refused("Press Tab, select all", bpy.ops.object.fairing_in_place)
+    np.testing.assert_array_equal(positions(scan.data), before)
     assert bpy.context.mode == "OBJECT"
 
 
@@ -181,6 +184,7 @@ def test_half_a_panel_with_a_mirror_modifier_gives_the_whole(capfd):
     bpy.context.scene.discrete_fairing.symmetry_plane = "Y"
     assert bpy.ops.object.fairing_for(purpose="PANEL") == {"FINISHED"}
     assert positions(bpy.context.active_object.data)[:, 1].min() == 0.0
+    assert "turn on Copy Modifiers" in capfd.readouterr().out
 
 
 def test_half_a_cage_under_mirror_and_subdivision_surface_gives_the_whole():

@@ -58,6 +58,7 @@ def seam(target, axis):
 def test_stem_and_keel_of_half_a_hull_are_sharp():
     source = half_boat()
     half = again(source, levels=3)
+    assert seam(half, 1) == (72, 72)
     half.discrete_fairing_live.on = True
     source.data.vertices[9].co.y += 0.1
     source.data.update()
