@@ -44,10 +44,17 @@ bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
 // By the degree that a solve needs; or where earlier solves of the same system have together cost as
 // much as a factor, so that a level is never smoothed for much longer than that.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
+  if (!may_factor(index, limits)) return false;
+  if (options_.expects_hard_levels && (unknowns(index) <= direct_limit || is_above_hard(index)))
+    return true;
   const double degree =
       std::max<double>(cycle_.degree, cycle_.levels[index].work / iterations_wanted);
-  return degree >= double(least_degree_of_hard + unknowns(index) / unknowns_per_degree) &&
-         may_factor(index, limits);
+  return degree >= double(least_degree_of_hard + unknowns(index) / unknowns_per_degree);
+}
+
+// Whether the level below was factored after a trial.
+bool Hierarchy::is_above_hard(std::size_t index) const {
+  return cycle_.base + 1 == index && unknowns(cycle_.base) > direct_limit;
 }
 
 // Makes this level the coarsest, solved directly.

@@ -27,6 +27,8 @@ struct HierarchyOptions {
   bool always_factor = false;  // the coarsest level is ill-conditioned, whatever its size
   // Whether a level that stays difficult is factored, if it is not too large.
   bool factors_hard_levels = false;
+  // Whether small levels, and those above a hard one, are factored without a trial.
+  bool expects_hard_levels = false;
   // From this level on (coarsest: 0) the largest eigenvalue is that of the level below, whose edges
   // have eight pieces. (With four it still changes: the smoother then amplified vectors, and a rough
   // sphere took 14 iterations, with eight five.)
@@ -92,6 +94,7 @@ class Hierarchy {
   bool continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
   bool may_factor(std::size_t index, const PcgLimits& limits) const;
   bool is_too_hard(std::size_t index, const PcgLimits& limits) const;
+  bool is_above_hard(std::size_t index) const;
   void promote_to_coarsest(std::size_t index);
   void raise_degree(const PcgResult& result, const PcgLimits& limits);
 
