@@ -41,9 +41,8 @@ void set_differences(const Element& element, double area, const FitRows& rows,
 
 void set_energy(const ControlMesh& mesh, const Element& element, const StiffSide& side, Chart chart,
                 const FitRows& rows, std::span<Stencils::Column> energy) {
-  const bool beside = side.line != Vec2::Zero();
-  const double share = beside ? shorten(side, chart) : 1;
-  set_differences(element, chart.area, beside ? fit(chart) : rows, energy);
+  const double share = shorten(side, chart);
+  set_differences(element, chart.area, side.any() ? fit(chart) : rows, energy);
   for (std::size_t j = side.begin; j < side.end; ++j)
     for (double& each : energy[j % energy.size()]) each *= share;
   stiffen_straight(mesh, element, chart, energy);
@@ -53,10 +52,9 @@ void set_energy(const ControlMesh& mesh, const Element& element, const StiffSide
 // The fit, and the basis half-way to each neighbour.
 void set_transfer(const StiffSide& side, const Chart& chart, const FitRows& usual, float* rows,
                   float* half) {
-  const bool beside = side.line != Vec2::Zero();
-  const FitRows fitted = beside ? fit_beside(side, chart) : usual;
+  const FitRows fitted = side.any() ? fit_beside(side, chart) : usual;
   for (std::size_t j = 0; j < chart.ring.size(); ++j) {
-    const Coefficients at = beside ? basis_beside(side, chart, j, 0.5) : basis(0.5 * chart.ring[j]);
+    const Coefficients at = basis_beside(side, chart, j, 0.5);
     for (std::size_t c = 0; c < 5; ++c) {
       rows[5 * j + c] = float(fitted(Eigen::Index(c), Eigen::Index(j)));
       half[5 * j + c] = float(at(Eigen::Index(c)));

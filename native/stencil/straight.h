@@ -19,6 +19,7 @@ namespace fairing {
 struct StiffSide {
   Vec2 line = Vec2::Zero();
   std::size_t begin = 0, end = 0;
+  bool any() const { return line != Vec2::Zero(); }
 };
 StiffSide stiff_side(const ControlMesh& mesh, const Element& element, const Chart& chart);
 
