@@ -15,6 +15,7 @@ from ..errors import JobError
 from ..jobs.fair import Job
 from ..jobs.fit import Fit, settings_of_fit
 from ..memory import source_of
+from ..mesh.modifiers import left_out
 from ..mesh.object import Reference, new_object
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import ShapeKeys, influences, mixed_positions, read_shape_keys
@@ -23,7 +24,6 @@ from ..settings import PatchOptions, Settings, is_evaluated
 from ..surfaces import neighbours
 from ..transfer.attributes import AttributeTransfer
 from ..units import Units
-from ..words import listed
 from . import colours, words
 
 Share = float | np.ndarray  # of a shape: one number, or one a control vertex
@@ -152,7 +152,9 @@ class PatchJob(Job):
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self._units = Units.of(context.scene)
         # others concern data that only meshes carry
-        self.notes = _modifiers_text(shown) if source is not None else []
+        cure = "set Control Mesh to With Modifiers" if source is None else "its own modifiers are left out"
+        is_whole = source is None and is_evaluated(self.settings)
+        self.notes = [] if is_whole else left_out(shown, cure)
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
@@ -271,16 +273,6 @@ class PatchJob(Job):
         source = self.source
         if source is not None and self.defects and not is_evaluated(self.settings):
             store_defects(context, source, self.defects)
-
-
-def _modifiers_text(surface: Object) -> list[str]:
-    """What the window shows of a surface and its patches do not have."""
-    names = [m.name for m in cast(Any, surface).modifiers if m.show_viewport]
-    return (
-        [f"The patches are without {listed(names)}: modifiers of a surface are left out."]
-        if names
-        else []
-    )
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:

@@ -8,6 +8,7 @@ from typing import Any, cast
 import bpy
 
 from ..blender import Context, Object
+from ..words import listed
 from .object import copy_drivers
 
 # custom property of the modifier that shows an inspected object in another material, which is not
@@ -51,20 +52,20 @@ def copy_modifiers(context: Context, source: Object, target: Object) -> list[str
     return notes
 
 
-def left_out(source: Object) -> list[str]:
-    """What a surface of `source` as modelled lacks, and the cure: a sentence, or none. The surface takes the
-    place of Subdivision Surface.
+def left_out(source: Object, cure: str = "") -> list[str]:
+    """Which modifiers a surface of `source` as modelled lacks, and the cure: a sentence, or none. The surface takes
+    the place of Subdivision Surface. `cure`: empty for that of fairing.
     """
     shown = [m for m in cast(Iterable[Any], source.modifiers) if m.show_viewport]
     inspection = inspection_modifier(source)
     missing = [m for m in shown if m.type != "SUBSURF" and m != inspection]
     if not missing:
         return []
-    names = ", ".join(modifier.name for modifier in missing)
-    cure = "turn on Copy Modifiers, or set Control Mesh to With Modifiers"
     axes = [a for m in missing if m.type == "MIRROR" for a, on in zip("XYZ", m.use_axis) if on]
-    if len(axes) == 1:
+    if not cure and len(axes) == 1:
         cure = f"turn on Copy Modifiers and set Symmetry Plane to {axes[0]}"
+    cure = cure or "turn on Copy Modifiers, or set Control Mesh to With Modifiers"
+    names = listed([modifier.name for modifier in missing])
     return [f"The surface is without {names}: {cure}."]
 
 

@@ -84,11 +84,21 @@ def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path, capf
     path = tmp_path / "ball.step"
     export(path)
     assert names(path) == ["Ball Fair"]
-    assert "Ball Fair: The patches are without Twin" in capfd.readouterr().out
+    assert "Ball Fair: The surface is without Twin: its own" in capfd.readouterr().out
     found = step_files.read(path)
     assert found.solids == 1
     assert np.allclose(found.centre, (7000, 0, 0), atol=0.5)
     assert found.volume == pytest.approx(4 / 3 * pi * (1000 * RADIUS) ** 3, rel=2e-4)
+
+
+def test_modifiers_of_a_mesh_that_are_left_out_are_said(tmp_path, capfd):
+    """Half of a mirrored hull was written without a word."""
+    sphere().modifiers.new("Twin", "ARRAY")
+    export(tmp_path / "ball.step")
+    assert "The surface is without Twin: set Control Mesh" in capfd.readouterr().out
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    export(tmp_path / "two.step")
+    assert "without" not in capfd.readouterr().out
 
 
 def test_several_objects_become_parts_with_names_and_colours(tmp_path):

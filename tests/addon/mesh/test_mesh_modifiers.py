@@ -50,7 +50,7 @@ def test_bindings_are_undone():
     [
         (["SUBSURF"], []),
         (["MIRROR", "SUBSURF"], ["Mirror", "Copy Modifiers", "Symmetry Plane to X"]),
-        (["SOLIDIFY", "SIMPLE_DEFORM"], ["Solidify, Simple_Deform", "With Modifiers"]),
+        (["SOLIDIFY", "SIMPLE_DEFORM"], ["Solidify and Simple_Deform", "With Modifiers"]),
     ],
 )
 def test_what_the_surface_lacks_is_said_with_the_cure(kinds, said):
