@@ -19,7 +19,7 @@ from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
 from .mixins import Action
-from .presets import set_job
+from .presets import set_job, suit_shapes
 
 _CROWDED = (
     "If the stations' names are no places, give places in a column x, or a row 'spacing, 1200' above the head. "
@@ -81,7 +81,8 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
             parts.append(f"{len(made.creases)} edges creased")
         if made.is_crowded:
             self.report({"WARNING"}, _CROWDED)
-        bending, _ = set_job(context, "HULL", [target])
+        set_job(context, "HULL")
+        bending = suit_shapes(context, "HULL", [target], {})
         return ", ".join(parts) + (f". {bending}" if bending else "")
 
 

@@ -33,9 +33,8 @@ from ..purposes import (
     preset_file,
 )
 from ..settings import NAMES, Settings, are_mirrored, mirror_axis
-from ..transfer.seams import half_axes
 from ..ui.active import active_settings, fairing_operator, remembered
-from ..yard.hull_mesh import sharp_in_middle
+from ..yard.hull_mesh import settings_of_whole, why_round
 from .fair import can_fair
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
@@ -90,17 +89,20 @@ def unregister() -> None:
 _UNDO = True
 
 
-def set_job(
-    context: Context, purpose: str, sources: Sequence[Object]
-) -> tuple[str, dict[str, Any]]:
-    """Gives the panel the settings of a job for these `sources`; sentences on what their shapes change, and what the
-    next surface has beside the panel's settings.
-    """
+def set_job(context: Context, purpose: str) -> None:
+    """Gives the panel the settings of a job."""
     cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file(purpose)))
+
+
+def suit_shapes(
+    context: Context, purpose: str, sources: Sequence[Object], whole: dict[str, Any]
+) -> str:
+    """Changes the panel where the shapes of `sources` ask for it; sentences on that. `whole`: the settings of
+    `whole_of`.
+    """
     panel = active_settings(context)
     found = [source_of(source) or source for source in sources]
     said = []
-    whole = whole_of(context, purpose, sources)
     is_own = purpose in OWN_VERTICES and mirror_axis(found)
     if not (is_own or whole) and panel.symmetry_plane == "NONE" and are_mirrored(found):
         panel.mesh_source = "EVALUATED"
@@ -111,38 +113,26 @@ def set_job(
         settings = replace(Settings.of(panel), **whole)
         for source in found:
             cage = _cage(context, source)
-            if reason := why_bending(cage, settings) or _why_round(cage, settings):
+            if reason := why_bending(cage, settings) or why_round(cage, settings):
                 panel.energy = "THIN_PLATE"
                 said.append(f"Bending in place of Flow Lines for {source.name}: {reason}")
                 if has_flat_ends(cage):
                     panel.use_crease_angle, panel.crease_angle = True, SHARP
                     said.append(f"Edges folded by {np.degrees(SHARP):.0f}° and more are sharp")
                 break
-    return ". ".join(said), whole
-
-
-def _why_round(cage: ControlArrays, settings: Settings) -> str:
-    """What to crease if the symmetry plane rounds a sharp stem or keel, from which Flow Lines swell."""
-    axis = settings.symmetry_plane
-    is_rounded = axis != "NONE" and sharp_in_middle(cage, axis, settings)[1].any()
-    return "crease stem and keel where they are sharp (Shift E, then 1)" if is_rounded else ""
+    return ". ".join(said)
 
 
 def whole_of(context: Context, purpose: str, sources: Sequence[Object]) -> dict[str, Any]:
     """Settings by which the next surface of halves under Mirror is the whole. They are not those of the panel, which
-    the next mesh gets too. Halves that meet at an angle keep it where the job holds their vertices.
+    the next mesh gets too.
     """
-    axis = mirror_axis(sources)
+    axis, is_own = mirror_axis(sources), purpose in OWN_VERTICES
     is_set = remembered(context) is not None or active_settings(context).symmetry_plane != "NONE"
-    if is_set or not axis or (are_mirrored(sources) and purpose not in OWN_VERTICES):
+    if is_set or not axis or (are_mirrored(sources) and not is_own):
         return {}
     cages = [_cage(context, source) for source in sources]
-    if not all("XYZ".index(axis) in half_axes(cage) for cage in cages):
-        return {}
-    settings = Settings.of(active_settings(context))
-    edges = [sharp_in_middle(cage, axis, settings) for cage in cages]
-    is_sharp = purpose in OWN_VERTICES and all((new | marked).all() for _, new, marked in edges)
-    return {"symmetry_plane": "NONE" if is_sharp else axis, "copy_modifiers": True}
+    return settings_of_whole(cages, axis, Settings.of(active_settings(context)), is_own)
 
 
 def _cage(context: Context, source: Object) -> ControlArrays:
@@ -189,7 +179,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         if path is None:
             return operators.fairing_in_place(how, _UNDO, vertices="MEASURED")
         sources = control_meshes(context)
-        said, whole = set_job(context, self.purpose, sources)
+        set_job(context, self.purpose)
+        whole = whole_of(context, self.purpose, sources)
+        said = suit_shapes(context, self.purpose, sources, whole)
         if said:
             self.report({"INFO"}, said)
         if self.purpose in EASED_FIRST:

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes a table of offsets: quads between stations and lines, triangles where these end."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
+from typing import Any
 
 import numpy as np
 
 from .. import core
 from ..control_arrays import ControlArrays
 from ..settings import Settings
+from ..transfer.seams import half_axes
 from .offsets import Offset, Offsets, is_buttock, is_diagonal, is_sharp, is_waterline
 
 
@@ -82,6 +85,26 @@ def sharp_in_middle(
     kinds = [(edge in sharp, edge in marked) for edge in middle]
     new, old = np.array(kinds, bool).reshape(-1, 2).T
     return middle, new, old
+
+
+def why_round(cage: ControlArrays, settings: Settings) -> str:
+    """What to crease if the symmetry plane rounds a sharp stem or keel, from which Flow Lines swell."""
+    axis = settings.symmetry_plane
+    is_rounded = axis != "NONE" and sharp_in_middle(cage, axis, settings)[1].any()
+    return "crease stem and keel where they are sharp (Shift E, then 1)" if is_rounded else ""
+
+
+def settings_of_whole(
+    cages: Sequence[ControlArrays], axis: str, settings: Settings, holds_vertices: bool
+) -> dict[str, Any]:
+    """Settings by which the surfaces of halves are wholes; none if a cage is not half. Halves that meet at an angle
+    keep it where their vertices are held.
+    """
+    if not all("XYZ".index(axis) in half_axes(cage) for cage in cages):
+        return {}
+    edges = [sharp_in_middle(cage, axis, settings) for cage in cages]
+    is_sharp = holds_vertices and all((new | marked).all() for _, new, marked in edges)
+    return {"symmetry_plane": "NONE" if is_sharp else axis, "copy_modifiers": True}
 
 
 def sharp_middle(
