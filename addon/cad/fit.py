@@ -152,7 +152,11 @@ class PatchJob(Job):
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self._units = Units.of(context.scene)
         # others concern data that only meshes carry
-        cure = "set Control Mesh to With Modifiers" if source is None else "its own modifiers are left out"
+        cure = (
+            "set Control Mesh to With Modifiers"
+            if source is None
+            else "its own modifiers are left out"
+        )
         is_whole = source is None and is_evaluated(self.settings)
         self.notes = [] if is_whole else left_out(shown, cure)
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
