@@ -46,13 +46,7 @@ EVEN = np.linspace(0.07, 0.93, len(HEIGHTS))
 # of a body with bevelled rims: its top and its walls are flat
 BODY = ((0.14, 0.10), (0.14, 0.62), (0.23, 0.80), (0.77, 0.80), (0.86, 0.62), (0.86, 0.10))
 TOLERANCE = 0.075
-SECTIONS = {
-    "Exact": (("exact", 1.0),),
-    "Approximate": (("approximate", 1.0),),
-    "Limit": (("limit", 1.0),),
-    "Flats": (("flats", 1.0),),
-    "Auto": (("limit", 0.45), ("exact", 1.0)),  # the strength of each line
-}
+SECTIONS = ("Exact", "Approximate", "Limit", "Flats")
 SURFACE, VERTEX, CAGE = (0.25, 0.58, 0.92), (0.96, 0.55, 0.14), (0.55, 0.55, 0.55)
 SAMPLES = 4  # a pixel's side
 
@@ -120,15 +114,14 @@ def section(line, interpolation):
     return middle[np.argsort(turn)][:, ::2]
 
 
-def draw_section(parts, path):
-    """The sections `parts` over the control polygon and its vertices."""
-    line = BODY if parts == SECTIONS["Flats"] else list(zip(EVEN, HEIGHTS))
+def draw_section(name, path):
+    """A section over the control polygon and its vertices."""
+    line = BODY if name == "Flats" else list(zip(EVEN, HEIGHTS))
     cage = np.array(line)
     picture = np.zeros((SIZE, SIZE, 4), np.float32)
     lay(picture, along(cage, 0.012), CAGE, 0.8)
-    for interpolation, strength in parts:
-        lay(picture, along(section(line, interpolation), 0.036), SURFACE, strength)
-    if parts == SECTIONS["Approximate"]:
+    lay(picture, along(section(line, name.lower()), 0.036), SURFACE, 1.0)
+    if name == "Approximate":
         for vertex in cage:
             lay(
                 picture,
@@ -170,8 +163,8 @@ def main():
     try:
         for name, settings in RINGS.items():
             draw_ring(settings, OUT / f"{name}.png")
-        for name, parts in SECTIONS.items():
-            draw_section(parts, OUT / f"{name}.png")
+        for name in SECTIONS:
+            draw_section(name, OUT / f"{name}.png")
     finally:
         addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
 

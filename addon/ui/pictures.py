@@ -59,11 +59,16 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
 
 
 def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
-    """The options of a setting side by side, each under its picture; `labels`: short names."""
-    layout.label(text=name_of(owner, name))
-    row = layout.row(align=True)
-    row.use_property_split = False
-    for key, label in labels.items():
+    """The options of a setting side by side, each under its picture; `labels`: short names. Auto is one of the others,
+    so it stands beside the heading, without a picture: a sidebar of usual width has room for four.
+    """
+    heading, row = layout.row(), layout.row(align=True)
+    heading.label(text=name_of(owner, name))
+    heading.use_property_split = row.use_property_split = False
+    pictured = dict(labels)
+    if automatic := pictured.pop("AUTO", ""):
+        heading.prop_enum(owner, name, "AUTO", text=automatic)
+    for key, label in pictured.items():
         column = row.column(align=True)
         column.template_icon(icon_value=icon(key), scale=_SMALL)
         column.prop_enum(owner, name, key, text=label)
