@@ -245,8 +245,9 @@ def test_rims_of_a_box_with_round_corners_are_straight_between_them(size):
     assert np.minimum(np.abs(inset), np.abs(inset - 4))[walls].max() < 0.005
     lip = (z > 60 - size) & (inset < size)
     assert np.abs(np.hypot(inset - size, z - 60 + size) - size)[lip].max() < 0.1 * size
-    start = df.fair(points, faces, LEVEL, interpolation="auto", pad_size=0).report["levels"][2]
-    assert sum(start["residuals"][:1]) < 2  # 10 where prolongation bent straight faces
+    if size > 1:
+        start = df.fair(points, faces, LEVEL, interpolation="auto", pad_size=0).report["levels"][2]
+        assert start["residuals"][0] < 2  # 10 where prolongation bent straight faces
 
 
 def test_straight_strips_beside_a_fan_are_as_even_as_the_fan():
