@@ -21,7 +21,7 @@ constexpr int mass_steps = 12;  // each halves the error
 
 Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
            Workers& workers, const VertexWeights& weights)
-    : mesh_(&mesh), workers_(&workers), unknowns_(unknowns), rows_(unknowns) {
+    : mesh_(&mesh), workers_(&workers), rows_(unknowns) {
   for (const FlatFace& flat : charts.flat()) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
   under_.assign(vertices, 0);
@@ -30,12 +30,9 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
   for (std::size_t v = 0; v < vertices; ++v) {
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
     if (!held || !may_have_pad(mesh, Index(v))) continue;
-    under_[v] = 1;
-    rows_.vertex[v] = 1;
-    rows_.any_vertex = true;
-    ++count_;
+    under_[v] = rows_.vertex[v] = 1;
+    any_ = rows_.any_vertex = true;
   }
-  began_under_ = under_;
 }
 
 double Pads::reach(std::size_t v) const {
@@ -47,13 +44,6 @@ double Pads::reach(std::size_t v) const {
     farthest = std::max(farthest, length / inverse_reach(spoke));
   }
   return farthest;
-}
-
-void Pads::deactivate(std::size_t v) {
-  if (!under(v)) return;
-  under_[v] = 0;
-  rows_.vertex[v] = unknowns_.vertex[v];
-  rows_.any_vertex = --count_ > 0 || unknowns_.any_vertex;
 }
 
 double Hats::inverse_along(const Face& face, std::size_t side, bool from_second) const {

@@ -49,16 +49,10 @@ class Pads {
        Workers& workers, const VertexWeights& weights = {});
 
   // Whether any control vertex has a pad.
-  bool any() const { return count_ > 0; }
+  bool any() const { return any_; }
   bool under(std::size_t v) const { return under_[v] != 0; }
-  // Whether v had a pad before any was deactivated.
-  bool began_under(std::size_t v) const { return began_under_[v] != 0; }
-  // Per control vertex: whether it has a pad.
-  const std::vector<std::uint8_t>& places() const { return under_; }
   // Largest reach of a pad along the edges around it; 0 without a pad.
   double reach(std::size_t v) const;
-  // Replaces the vertex' pad by a point force. Hats have to be made again.
-  void deactivate(std::size_t v);
   // The unknowns and the control vertices on pads: the rows of K in (*).
   const Unknowns& rows() const { return rows_; }
 
@@ -72,17 +66,17 @@ class Pads {
   const ControlMesh* mesh_;
   Workers* workers_;
   std::vector<double> area_;  // per control face, in the control metric
-  std::vector<std::uint8_t> under_, began_under_;
+  std::vector<std::uint8_t> under_;
   std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
-  std::size_t count_ = 0;
-  Unknowns unknowns_, rows_;
+  bool any_ = false;
+  Unknowns rows_;
 };
 
 // The pads' hats, sampled on a level's points.
 class Hats {
  public:
   // `omega`: one number a point; empty: the points' shares of the control metric's area, times
-  // 4^-level. Pads and grid must outlive the hats, and the pads must not change.
+  // 4^-level. Pads and grid must outlive the hats.
   Hats(const Pads& pads, const GridLevel& grid, Array<double> omega = {});
 
   const GridLevel& grid() const { return grid_; }

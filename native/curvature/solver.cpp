@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "constraints/diverged.h"
 #include "curvature/fold_repair.h"
 #include "curvature/start.h"
 #include "curvature/steps.h"
@@ -70,10 +69,6 @@ CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& pla
   report.level = level;
   on_points_ = false;
   const StepWork before = system_.work(level);
-  if (pads_ && places_ != pads_->places()) {
-    places_ = pads_->places();
-    iterate_.current.held.loads.clear();
-  }
   const std::span<const Vec3> given =
       level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
   choose_start(iterate_, level, pads_, plate, plate_below, std::move(reference), given, report);
@@ -176,11 +171,8 @@ void GaussNewtonSolver::keep_bending_alone(const StepStart& start, const Array<d
 void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                                             CurvatureLevelReport& report) {
   const double bound = report.converged ? energy_bound(report) : equal_energy * report.start_energy;
-  const bool is_spike = report.folds > 0 && has_diverged(surface(), plate);
-  if (report.energy <= bound && !is_spike) return;
-  const bool keeps_plate =
-      (is_finest() && constraints_.any()) || (is_spike && has_diverged(start.points, plate));
-  keep(keeps_plate ? plate : start.points, start, report);
+  if (report.energy <= bound) return;
+  keep(is_finest() && constraints_.any() ? plate : start.points, start, report);
 }
 
 void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
@@ -193,16 +185,6 @@ void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
   report.left = std::numeric_limits<double>::infinity();
   report.converged = false;
   report.kept_start = true;
-}
-
-// A folded spike of any length has the same energy, so the energy does not reveal it. (A surface
-// without folds that reaches as far may be the large sphere through a flat cap.)
-bool GaussNewtonSolver::has_diverged(const Array<double>& x, const Array<double>& plate) {
-  const auto extent = [&](const Array<double>& y) {
-    return largest(iterate_.workers(), 3 * iterate_.grid().size(),
-                   [&](std::size_t i) { return y[i]; });
-  };
-  return !(extent(x) <= far_away * extent(plate));
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {

@@ -74,8 +74,6 @@ class GaussNewtonSolver {
   bool is_settled(const CurvatureLevelReport& report);
   // Steps from the iterate, whose control vertices have moved from those of `before`.
   bool steps_go_well(const CurvedSurface& before, CurvatureLevelReport& report);
-  // Whether a part of the surface x is far from the mesh.
-  bool has_diverged(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                            CurvatureLevelReport& report);
   // Resets the surface to the start or to the plate and ends the steps.
@@ -87,8 +85,7 @@ class GaussNewtonSolver {
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   IntervalConstraints constraints_;
-  const Pads* pads_;                  // null: no pads
-  std::vector<std::uint8_t> places_;  // of the pads, on the latest level
+  const Pads* pads_;  // null: no pads
   bool on_points_ = false;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;

@@ -23,13 +23,13 @@ namespace {
 // between iterations for a surface that is replaced anyway and steps from a worse start.
 constexpr double start_tolerance = 1e-3;
 
-// `on_points`: none is active any more.
+// `on_points`: the surface stands on point forces in spite of them.
 PadReport report_of(const Pads& pads, std::size_t vertices, double unit, bool on_points) {
   PadReport out;
   for (std::size_t v = 0; v < vertices; ++v) {
-    const bool under = pads.under(v) && !on_points;
-    out.widths.push_back(under ? unit * pads.reach(v) : 0.0);
-    out.gone += pads.began_under(v) && !under;
+    const bool under = pads.under(v);
+    out.widths.push_back(under && !on_points ? unit * pads.reach(v) : 0.0);
+    out.gone += under && on_points;
   }
   return out;
 }

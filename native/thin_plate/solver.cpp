@@ -105,15 +105,7 @@ PlateSurface ThinPlateSolver::solve_level(int level, const PlateData& data,
   // Energies hardly change between levels.
   if (is_base) limits.energy_scale = std::sqrt(levels_.energy(level, out.x.data()));
   if (is_top) out.state.limits = limits;
-  Run::Solved solved = run.solve(level, limits, active);
-  if (supports_.deactivate_diverged_pads(level, data.targets, out.x.data())) {
-    run.start(level, !active, below, out.forces);
-    if (is_top) out.state.limits = limits;
-    const LevelReport diverged = solved.report;
-    solved = run.solve(level, limits, active);
-    solved.report.iterations += diverged.iterations;
-    solved.report.pad_corrections += diverged.pad_corrections;
-  }
+  const Run::Solved solved = run.solve(level, limits, active);
   reports.push_back(solved.report);
   if (!is_top) {
     out.energy = levels_.energy(level, out.x.data());

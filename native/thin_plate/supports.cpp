@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "constraints/diverged.h"
 #include "constraints/multipliers.h"
-#include "grid/ring.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -88,22 +86,6 @@ void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& 
   const auto here = hats(level);
   for (std::size_t v = 0; v < loads.size(); ++v)
     if (here->under(v)) loads[v] /= here->total(v);
-}
-
-bool PlateSupports::deactivate_diverged_pads(int level, std::span<const Vec3> targets,
-                                             const double* x) {
-  if (!pads_) return false;
-  bool any = false;
-  const auto deactivate = [&](Index v) {
-    any |= pads_->under(std::size_t(v));
-    pads_->deactivate(std::size_t(v));
-  };
-  for (const Index v : diverged_stars(levels_.grid(level), levels_.workers(), targets, x)) {
-    deactivate(v);
-    visit_ring(levels_.grid(0), v, [&](Index u, std::size_t) { deactivate(u); });
-  }
-  if (any) hats_.reset();
-  return any;
 }
 
 // Integrals of couples do not change.

@@ -17,7 +17,7 @@ class PlateSupports {
   PlateSupports(const ChartMaker& charts, const ThinPlateOptions& options, ThinPlateLevels& levels);
 
   const Pads* pads() const { return pads_.get(); }  // null: point forces hold control vertices
-  // The current pads' hats on a level's points; null without pads.
+  // The pads' hats on a level's points; null without pads.
   std::shared_ptr<const Hats> hats(int level);
   // On a level's points; null without fixed normals, or if hats have no points there.
   std::shared_ptr<const LevelCouples> couples(int level);
@@ -33,9 +33,6 @@ class PlateSupports {
   // the hats there relative to the level before; `foretells`: whether they predict the change of
   // the loads.
   void start(int level, bool foretells, PlateState& state, Loads& forces_below);
-  // Replaces pads by point forces where x has diverged from the mesh. Returns whether any was
-  // replaced.
-  bool deactivate_diverged_pads(int level, std::span<const Vec3> targets, const double* x);
 
  private:
   void start_loads(int level, bool foretells, Loads& loads, Loads& forces_below);
@@ -43,7 +40,7 @@ class PlateSupports {
   void measure_couples(int level, int max_iterations);
 
   ThinPlateLevels& levels_;
-  std::unique_ptr<Pads> pads_;
+  std::unique_ptr<const Pads> pads_;
   std::shared_ptr<const Hats> hats_;  // of the latest level; null: not made yet
   std::unique_ptr<Couples> couples_;
   std::shared_ptr<const LevelCouples> level_couples_;  // of the latest level; null: none

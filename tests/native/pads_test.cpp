@@ -2,7 +2,6 @@
 // Pads: their hats and mass matrix, and what is left of the forces on a surface that stands on
 // them.
 #include "constraints/pads.h"
-#include "constraints/diverged.h"
 
 #include <gtest/gtest.h>
 
@@ -79,22 +78,6 @@ TEST(Pads, HatsFallOffOverTheirWidth) {
         const auto p = 3 * std::size_t(grid.edge_point(spoke.edge, spoke.outward ? k : 8 - k));
         EXPECT_NEAR(r[p] / share[p], std::max(0.0, 1 - k / 8.0 / size), 1e-14);
       }
-  }
-}
-
-TEST(Pads, ThrownStarsAreFound) {
-  const ControlMesh mesh = make_control_mesh(torus(8, 6).view(), {});
-  Workers workers(2);
-  const GridLevel grid(mesh, 2);
-  std::vector<double> x(3 * grid.size());
-  refine_linearly(grid, mesh.positions, workers, x.data());
-  EXPECT_TRUE(diverged_stars(grid, workers, mesh.positions, x.data()).empty());
-  const auto at = 3 * std::size_t(grid.face_base(5));
-  for (const double far : {100.0, std::numeric_limits<double>::quiet_NaN()}) {
-    x[at] = far;
-    std::vector<Index> corners(mesh.faces[5].vertex.begin(), mesh.faces[5].vertex.end());
-    std::sort(corners.begin(), corners.end());
-    EXPECT_EQ(diverged_stars(grid, workers, mesh.positions, x.data()), corners);
   }
 }
 
