@@ -9,7 +9,6 @@
 #include "curvature/fold_repair.h"
 #include "curvature/local_damping.h"
 #include "grid/linear.h"
-#include "mesh/union_find.h"
 
 namespace fairing {
 namespace {
@@ -21,36 +20,6 @@ Unknowns points_to_fill(const FairingProblem& problem) {
     std::fill_n(unknowns.vertex.begin(), problem.mesh.first_centre(), std::uint8_t(0));
   return unknowns;
 }
-
-// Connected patches of marked points, numbered by their first points; -1: not marked. In all
-// directions of a triangle, so that they do not depend on its first corner.
-class Patches {
- public:
-  Patches(const GridLevel& grid, const Array<float>& marks) : marks_(marks), sets_(grid.size()) {
-    const int n = grid.n();
-    const std::vector<Face>& faces = grid.mesh().faces;
-    for (Index f = 0; f < Index(faces.size()); ++f) {
-      const bool quad = faces[f].quad();
-      for (int j = 0; j <= n; ++j)
-        for (int i = 0; i < (quad ? n : n - j); ++i) {
-          join(grid.face_point(f, i, j), grid.face_point(f, i + 1, j));
-          join(grid.face_point(f, j, i), grid.face_point(f, j, i + 1));
-          if (!quad) join(grid.face_point(f, i + 1, j), grid.face_point(f, i, j + 1));
-        }
-    }
-  }
-
-  Index of(Index point) { return is_marked(point) ? sets_.lead(point) : -1; }
-
- private:
-  bool is_marked(Index point) const { return marks_[point] > 0; }
-  void join(Index a, Index b) {
-    if (is_marked(a) && is_marked(b)) sets_.unite(a, b);
-  }
-
-  const Array<float> marks_;
-  UnionFind sets_;
-};
 
 class PlateFoldRepair {
  public:
@@ -89,11 +58,6 @@ class PlateFoldRepair {
         repair.filled[i] = std::max(repair.filled[i], marks[i]);
       unmark(excused, repair.filled);
       unmark(mesh_.flat.face, repair.filled);  // their stiffness holds their points in the plane
-      surface = plate;
-      apply(repair, polyhedron_, surface);
-      folds = find();
-    }
-    while (folds.count() > 0 && drop_unrepaired(surface, folds, repair)) {
       surface = plate;
       apply(repair, polyhedron_, surface);
       folds = find();
@@ -145,35 +109,6 @@ class PlateFoldRepair {
       for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= (quad ? n : n - j); ++i) marks[grid_.face_point(f, i, j)] = 0;
     }
-  }
-
-  // Restores a place that still has folds, since an unsuccessful repair only changes the surface.
-  // Returns whether there are such places.
-  bool drop_unrepaired(const Array<double>& surface, const Folds& folds, PlateRepair& repair) {
-    Patches patches(grid_, repair.filled);
-    Array<float> marks;
-    mark_folds(grid_, surface.data(), folds, marks);
-    dilate_by(1, marks);
-    std::vector<std::uint8_t> is_folded(grid_.size(), 0);  // by number of the patch
-    bool any = false;
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-      const Index patch = marks[i] > 0 ? patches.of(Index(i)) : Index(-1);
-      if (patch < 0) continue;
-      is_folded[patch] = 1;
-      any = true;
-    }
-    const auto is_left = [&](Index point) {
-      const Index patch = patches.of(point);
-      return patch >= 0 && is_folded[patch];
-    };
-    std::erase_if(repair.straightened, [&](Index e) {
-      for (int k = 1; k < grid_.n(); ++k)
-        if (is_left(grid_.edge_point(e, k))) return true;
-      return false;
-    });
-    for (std::size_t i = 0; i < marks.size(); ++i)
-      if (is_left(Index(i))) repair.filled[i] = 0;
-    return any;
   }
 
   void dilate_by(int rings, Array<float>& marks) {
