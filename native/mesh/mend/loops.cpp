@@ -25,21 +25,15 @@ bool is_ambiguous(std::span<const MendCorner> walk) {
 // The first corner of the walk's least rotation: the place of a cut must not depend on the corner
 // that a file names first.
 std::size_t least_rotation(std::span<const MendCorner> walk) {
-  const auto vertex = [&](std::size_t from, std::size_t i) {
-    return walk[(from + i) % walk.size()].vertex;
+  std::vector<Index> twice = vertices_of(walk);
+  twice.insert(twice.end(), twice.begin(), twice.end());
+  const auto rotation = [&](std::size_t first) {
+    return std::span(twice).subspan(first, walk.size());
   };
-  std::size_t least = 0, other = 1, equal = 0;
-  while (other < walk.size() && least < walk.size() && equal < walk.size()) {
-    const Index a = vertex(least, equal), b = vertex(other, equal);
-    if (a == b) {
-      ++equal;
-      continue;
-    }
-    (a > b ? least : other) += equal + 1;
-    if (least == other) ++other;
-    equal = 0;
-  }
-  return std::min(least, other);
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < walk.size(); ++i)
+    if (std::ranges::lexicographical_compare(rotation(i), rotation(least))) least = i;
+  return least;
 }
 
 }  // namespace
