@@ -19,8 +19,8 @@ struct PlateRepair {
 
 // Removes the folds that the control mesh does not have: the distance of the points around them
 // from the control polyhedron is filled (fill_harmonically), then farther around those that remain.
-// Without folds, and where filling leaves as many, the surface stays bit for bit. 3 numbers a point of
-// the finest level, in working coordinates. May throw FairingError(cancelled).
+// Without folds, and where filling leaves as many, the surface stays bit for bit. 3 numbers a point
+// of the finest level, in working coordinates. May throw FairingError(cancelled).
 PlateRepair repair_plate_folds(const FairingProblem& problem, const ControlPositions& control,
                                const GridLevel& grid, Array<double>& surface);
 
