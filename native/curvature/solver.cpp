@@ -121,7 +121,7 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
 // finer levels too, and the fallback runs. If they converge with folds, the fallback's surface
 // replaces theirs only if it is as near to its solution and has fewer folds.
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
-  if (below_.is_plain) run_plain(iterate_, pads_, end(), long_patience, report);
+  if (below_.is_plain) run_plain(iterate_, pads_, end(), report);
   const bool is_plain = below_.is_plain && is_settled(report);
   if (is_plain && is_finest()) report.folds_before = report.folds = folds_of(iterate_).count();
   if (is_lost(is_plain)) return false;
@@ -147,7 +147,7 @@ void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
   if (any_moved) constraints_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
   system_.fix_control_vertices(constraints_.without_held(), iterate_.level, iterate_.current);
-  if (any_moved) polish(iterate_, short_patience, report);
+  if (any_moved) polish(iterate_, plain_patience, report);
 }
 
 double GaussNewtonSolver::energy_beside_bending(const Array<double>& x) {
@@ -229,7 +229,7 @@ bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLeve
   if (varies())
     run_variation(iterate_, variation_, accurate_end(iterate_), report);
   else
-    run_plain(iterate_, pads_, accurate_end(iterate_), short_patience, report);
+    run_plain(iterate_, pads_, accurate_end(iterate_), report);
   report.folds_before = report.folds = folds_of(iterate_).count();
   const bool is_sound =
       report.converged && report.folds <= before.folds &&

@@ -278,9 +278,9 @@ void run_to_variation(SurfaceIterate& iterate, const StopCriterion& end,
   }
 }
 
-void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end, int patience,
+void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end,
                CurvatureLevelReport& report) {
-  run_steps(iterate, pads, nullptr, end, patience, report);
+  run_steps(iterate, pads, nullptr, end, plain_patience, report);
 }
 
 void run_damped(SurfaceIterate& iterate, const StepStart& start, const Array<float>& filled,
@@ -299,7 +299,7 @@ void polish(SurfaceIterate& iterate, int patience, CurvatureLevelReport& report)
   LinearizedSurface before = iterate.current;
   CurvatureLevelReport after = report;
   after.converged = false;
-  run_plain(iterate, before.functional.pads, accurate_end(iterate), patience, after);
+  run_steps(iterate, before.functional.pads, nullptr, accurate_end(iterate), patience, after);
   if (is_near(after, plain_decrement) && after.energy <= equal_energy * before.energy)
     report = std::move(after);
   else

@@ -40,9 +40,8 @@ constexpr double incomparable_energy = 1.5;
 // An energy below this is rounding: a sphere has 8 pi, a plane zero.
 constexpr double flat_energy = roundoff;
 
-// Number of steps in which plain steps reach plain_decrement, or never do; and if earlier steps
-// have come near the solution.
-constexpr int long_patience = 14, short_patience = 6;
+// Number of steps in which plain steps reach plain_decrement, or never do.
+constexpr int plain_patience = 14;
 // Most successive plain steps that may raise the energy; the next one must reach a new minimum.
 // Also the number in which plain steps after damped ones reach plain_decrement, or never do.
 constexpr int longest_climb = 3;
@@ -72,7 +71,7 @@ double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
 
 // Plain steps with control vertices on these pads; null: on point forces. Adds the steps to
 // `report`, and sets energy, `left` and `converged`.
-void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end, int patience,
+void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end,
                CurvatureLevelReport& report);
 // Damped steps on point forces from `start` to damped_decrement, or until the gain is too small.
 // Resets `report`. Points that are `filled` (above zero; empty: none) are damped throughout.

@@ -16,7 +16,7 @@ from typing import NamedTuple
 NATIVE = Path(__file__).resolve().parents[2] / "native"
 
 # What there is today. Lower these with every constant that goes or is explained.
-MOST = 185
+MOST = 184
 
 SETTINGS = {
     "fairing/options.h",
