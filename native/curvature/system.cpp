@@ -23,7 +23,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.factors_hard_levels = true;
+  out.hard_levels = HardLevels::factored;
   // As for the thin plate, the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;

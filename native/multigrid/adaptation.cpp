@@ -36,7 +36,7 @@ bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgL
 
 bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
   const std::size_t bytes = factor_bytes(unknowns(index));
-  return options_.factors_hard_levels && !limits.may_end_early &&
+  return options_.hard_levels != HardLevels::smoothed && !limits.may_end_early &&
          unknowns(index) <= direct_limit_of_hard && MemoryLedger::fits(bytes) &&
          is_expected_memory(3 * bytes / 2);  // with its matrix
 }
@@ -45,8 +45,8 @@ bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
 // much as a factor, so that a level is never smoothed for much longer than that.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
   if (!may_factor(index, limits)) return false;
-  if (options_.expects_hard_levels && (unknowns(index) <= direct_limit || is_above_hard(index)))
-    return true;
+  const bool expected = options_.hard_levels == HardLevels::expected;
+  if (expected && (unknowns(index) <= direct_limit || is_above_hard(index))) return true;
   const double degree =
       std::max<double>(cycle_.degree, cycle_.levels[index].work / iterations_wanted);
   return degree >= double(least_degree_of_hard + unknowns(index) / unknowns_per_degree);

@@ -22,13 +22,14 @@ constexpr std::size_t tiny_level = 1200;
 // for total curvature).
 constexpr int usual_degree = 3;
 
+// A hard level, if it is not too large, is smoothed; or factored once a trial shows that it is hard;
+// or factored without a trial where it is small or lies above a hard one.
+enum class HardLevels { smoothed, factored, expected };
+
 struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen by the solves, from the usual one on
   bool always_factor = false;  // the coarsest level is ill-conditioned, whatever its size
-  // Whether a level that stays difficult is factored, if it is not too large.
-  bool factors_hard_levels = false;
-  // Whether small levels, and those above a hard one, are factored without a trial.
-  bool expects_hard_levels = false;
+  HardLevels hard_levels = HardLevels::smoothed;
   // From this level on (coarsest: 0) the largest eigenvalue is that of the level below, whose edges
   // have eight pieces. (With four it still changes: the smoother then amplified vectors, and a rough
   // sphere took 14 iterations, with eight five.)

@@ -24,7 +24,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.factors_hard_levels = out.expects_hard_levels = has_flats;
+  if (has_flats) out.hard_levels = HardLevels::expected;
   out.settled -= std::size_t(base);
   if (tense) out.settled += settled_under_tension;
   return out;
