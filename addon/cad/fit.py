@@ -15,7 +15,7 @@ from ..errors import JobError
 from ..jobs.fair import Job
 from ..jobs.fit import Fit, settings_of_fit
 from ..memory import source_of
-from ..mesh.modifiers import left_out
+from ..mesh.modifiers import left_out, own_left_out
 from ..mesh.object import Reference, new_object
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import ShapeKeys, influences, mixed_positions, read_shape_keys
@@ -151,14 +151,8 @@ class PatchJob(Job):
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self._units = Units.of(context.scene)
-        # others concern data that only meshes carry
-        cure = (
-            "set Control Mesh to With Modifiers"
-            if source is None
-            else "its own modifiers are left out"
-        )
-        is_whole = source is None and is_evaluated(self.settings)
-        self.notes = [] if is_whole else left_out(shown, cure)
+        # other notes concern data that only meshes carry
+        self.notes = own_left_out(shown) if source else self._left_out(shown)
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
@@ -174,6 +168,10 @@ class PatchJob(Job):
         self.levels_shown = None if source is None or fit else int(shown.discrete_fairing.levels)
         self.apart: float | None = None  # as returned by `distance`, in Blender units of the world
         self.refused: list[int] = []  # faces that prevent the fit of patches
+
+    def _left_out(self, mesh: Object) -> list[str]:
+        cure = "set Control Mesh to With Modifiers"
+        return [] if is_evaluated(self.settings) else left_out(mesh, cure)
 
     def _blend(self, shown: Object) -> None:
         """Fits patches to the mix of shape keys that the sliders of `shown` make."""

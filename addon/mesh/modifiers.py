@@ -56,17 +56,18 @@ def left_out(source: Object, cure: str = "") -> list[str]:
     """Which modifiers a surface of `source` as modelled lacks, and the cure: a sentence, or none. The surface takes
     the place of Subdivision Surface. `cure`: empty for that of fairing.
     """
-    shown = [m for m in cast(Iterable[Any], source.modifiers) if m.show_viewport]
-    inspection = inspection_modifier(source)
-    missing = [m for m in shown if m.type != "SUBSURF" and m != inspection]
-    if not missing:
-        return []
+    missing = [m for m in _shown(source) if m.type != "SUBSURF"]
     axes = [a for m in missing if m.type == "MIRROR" for a, on in zip("XYZ", m.use_axis) if on]
     if not cure and len(axes) == 1:
         cure = f"turn on Copy Modifiers and set Symmetry Plane to {axes[0]}"
-    cure = cure or "turn on Copy Modifiers, or set Control Mesh to With Modifiers"
-    names = listed([modifier.name for modifier in missing])
-    return [f"The surface is without {names}: {cure}."]
+    return _without(
+        missing, cure or "turn on Copy Modifiers, or set Control Mesh to With Modifiers"
+    )
+
+
+def own_left_out(surface: Object) -> list[str]:
+    """Which modifiers of a surface its patches lack: a sentence, or none."""
+    return _without(_shown(surface), "its own modifiers are left out")
 
 
 def inspection_modifier(target: Object) -> Any:
@@ -95,6 +96,17 @@ def without_inspection(context: Context, *targets: Object) -> Iterator[None]:
     finally:
         for modifier, (viewport, render) in zip(shown, before, strict=True):
             modifier.show_viewport, modifier.show_render = viewport, render
+
+
+def _shown(target: Object) -> list[Any]:
+    modifiers = cast(Iterable[Any], target.modifiers)
+    inspection = inspection_modifier(target)
+    return [m for m in modifiers if m.show_viewport and m != inspection]
+
+
+def _without(missing: list[Any], cure: str) -> list[str]:
+    names = listed([modifier.name for modifier in missing])
+    return [f"The surface is without {names}: {cure}."] if missing else []
 
 
 def _missing(source: Object, target: Object) -> list[str]:

@@ -77,14 +77,15 @@ def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path, capf
     surface = fair(energy="TOTAL_CURVATURE", levels=2)
     assert "export_scene.fairing_step" in draw(main.VIEW3D_PT_fairing)
     surface.location = (7, 0, 0)
-    surface.modifiers.new("Twin", "MIRROR")
+    for name, kind in (("Twin", "MIRROR"), ("Round", "SUBSURF")):
+        surface.modifiers.new(name, kind)
     bpy.context.scene.discrete_fairing.energy = "THIN_PLATE"  # for the next one
     ball.hide_set(False)
     ball.select_set(True)  # its surface stands for it
     path = tmp_path / "ball.step"
     export(path)
     assert names(path) == ["Ball Fair"]
-    assert "Ball Fair: The surface is without Twin: its own" in capfd.readouterr().out
+    assert "Ball Fair: The surface is without Twin and Round: its own" in capfd.readouterr().out
     found = step_files.read(path)
     assert found.solids == 1
     assert np.allclose(found.centre, (7000, 0, 0), atol=0.5)
