@@ -24,7 +24,7 @@ from ..mesh.shape_keys import mixed_positions
 from ..poll import IN_OBJECT_MODE, needs
 from ..settings import Settings
 from ..yard.closing import NotHalf, Whole, whole_hull
-from ..yard.hull_mesh import sharp_in_middle
+from ..yard.halves import sharp_in_middle
 from ..yard.hydrostatics import Hydrostatics, NotClosed, Solid, hydrostatics, solid
 from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file

@@ -34,7 +34,7 @@ from ..purposes import (
 )
 from ..settings import NAMES, Settings, are_mirrored, mirror_axis
 from ..ui.active import active_settings, fairing_operator, remembered
-from ..yard.hull_mesh import settings_of_whole, why_round
+from ..yard.halves import settings_of_whole, why_round
 from .fair import can_fair
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
