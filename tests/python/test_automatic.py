@@ -20,41 +20,38 @@ def test_a_chamfered_cylinder_stays_one(fans):
     assert abs(radius - 1) < 0.02 and result.report["converged"]
 
 
-def prongs(degrees, rows=3):
-    """(vertices, quads): two prongs side by side on a block, with a slit whose walls are `degrees` apart."""
+def prongs(degrees, gap=0.0, rows=3):
+    """(vertices, quads): two prongs side by side on a block, with a slit whose walls are `gap` apart at its bottom, and
+    lean outwards to be `degrees` apart.
+    """
     z = np.arange(-1, rows) * 0.6
-    inner = np.maximum(z, 0.0) * np.tan(np.radians(degrees / 2))
-    columns = np.array([[-np.ones(rows + 1), -inner], [inner, np.ones(rows + 1)]])
+    inner = np.maximum(z, 0.0) * np.tan(np.radians(degrees / 2)) + gap / 2
+    columns = [(-np.ones(rows + 1), -inner, rows), (inner, np.ones(rows + 1), rows)]
+    columns += [(-inner, inner, 1)] if gap else []
     index, faces = {}, []
 
     def at(x, y, height):
-        key = round(x, 9), y, round(height, 9)
-        return index.setdefault(key, len(index))
+        return index.setdefault((round(x, 9), y, round(height, 9)), len(index))
 
-    for left, right in columns:
-        for k in range(rows):
+    for left, right, top in columns:
+        ring = [(left, -0.5), (right, -0.5), (right, 0.5), (left, 0.5)]
+        for k in range(top):
             low, high = z[k], z[k + 1]
-            ring = [(left, -0.5), (right, -0.5), (right, 0.5), (left, 0.5)]
-            for i, (a, y) in enumerate(ring):
-                b, after = ring[(i + 1) % 4]
-                if k or (i % 2 == 0 or abs(a[0]) == 1.0):  # the block has no wall in its middle
-                    faces.append(
-                        [
-                            at(a[k], y, low),
-                            at(b[k], after, low),
-                            at(b[k + 1], after, high),
-                            at(a[k + 1], y, high),
-                        ]
-                    )
-        faces.append([at(x[rows], y, z[rows]) for x, y in ring])
+            for (a, y), (b, after) in zip(ring, ring[1:] + ring[:1]):
+                if k or y == after or abs(a[0]) == 1.0:  # the block has no wall in its middle
+                    lower = at(a[k], y, low), at(b[k], after, low)
+                    faces.append([*lower, at(b[k + 1], after, high), at(a[k + 1], y, high)])
+        faces.append([at(x[top], y, z[top]) for x, y in ring])
         faces.append([at(x[0], y, z[0]) for x, y in ring[::-1]])
     return np.array(list(index)), faces
 
 
-@pytest.mark.parametrize("degrees, slit", [(20, True), (40, False)])
-def test_walls_of_a_slit_do_not_cross(degrees, slit):
-    points, faces = prongs(degrees)
-    right = np.array([points[face, 0].mean() > 0 for face in faces])
+@pytest.mark.parametrize(
+    "degrees, gap, slit", [(20, 0, True), (40, 0, False), (0, 0.15, True), (0, 0.5, False)]
+)
+def test_walls_of_a_slit_do_not_cross(degrees, gap, slit):
+    points, faces = prongs(degrees, gap)
+    right = np.array([points[face, 0].mean() > 1e-9 for face in faces])
 
     def beyond(interpolation):
         found = df.fair(points, faces, 3, interpolation=interpolation)

@@ -11,6 +11,7 @@ from .arrays import following, marked
 from .control_mesh import ControlMesh
 from .converters import vertex_pairs
 from .flats import ANGLE, SPACING, Parts, flats_of, halves_of_quads, kept_faces, straights_of
+from .swelling import swells_into_itself
 
 # through the vertices; the same with the faces of find_flats() kept flat; limit positions
 Choice: TypeAlias = Literal["exact", "flats", "limit"]
@@ -64,21 +65,24 @@ def resolved(
 def choice(mesh: ControlMesh, sharp: np.ndarray, may_keep: bool = True) -> Choice:
     """What suits a mesh best, with the edges `sharp`, (e,) bool. `may_keep`: whether flats can be kept.
 
-    "limit": it is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits. Through its
-    vertices such a mesh is quilted; the floor and the walls of a hollow swing into what is behind them, and
-    those of a slit into each other. "flats": it is closed and bevelled all around, with walls that are straight,
-    as a phone, a can or a cup; limit positions make it smaller, or a hollow larger. "exact": all others. Open meshes are measured
-    sheets, hulls and terrain as often as they are cages, and subdivision folds faces that are not star-shaped.
+    "limit": walls are so close that they would swell into each other, as between fingers; or it is closed, with
+    flats between tight rims of quads, a flat floor in a hollow, or slits. Through its vertices such a mesh is
+    quilted; the floor and the walls of a hollow swing into what is behind them, and those of a slit into each other. "flats": it is closed and bevelled all around, with walls that are straight,
+    as a phone, a can or a cup; limit positions make it smaller, or a hollow larger. "exact": all others. Other open
+    meshes are measured sheets, hulls and terrain as often as they are cages, and subdivision folds faces that are
+    not star-shaped.
     """
     uses = mesh.edge_uses
-    if not uses.any() or not np.isin(uses, (0, 2)).all():
+    if not uses.any() or (uses > 2).any():
         return "exact"
+    if (uses == 1).any():
+        return "limit" if _swells(mesh, sharp) and _are_star_shaped(mesh) else "exact"
     parts = Parts.of(mesh, ANGLE, sharp)
     slits = _has_slits(mesh, sharp)
     if may_keep and not slits and _is_bevelled(parts, sharp):
         return "flats"
     suits = slits or _has_floor(parts, sharp) or _has_rims(mesh, flats_of(parts, tight=True))
-    suits = suits or _has_chamfers_of_triangles(parts, sharp)
+    suits = suits or _has_chamfers_of_triangles(parts, sharp) or _swells(mesh, sharp)
     return "limit" if suits and _are_star_shaped(mesh) else "exact"
 
 
@@ -103,6 +107,14 @@ def _are_star_shaped(mesh: ControlMesh) -> bool:
     return bool(((cross * vectors).sum(axis=1) > least)[mesh.face_sizes[mesh.face_of] > 4].all())
 
 
+def _swells(mesh: ControlMesh, sharp: np.ndarray) -> bool:
+    """Whether walls beside edges that turn by over SLIT, none of them `sharp`, swell into each other."""
+    folds, inside = mesh.fold_angles
+    turns = np.where(inside & ~sharp & (folds > SLIT), np.radians(folds), 0.0)
+    turns *= -np.sign(_rises(mesh, *mesh.faces_of_edges.T))
+    return swells_into_itself(mesh, turns, _outwards(mesh) * mesh.face_normals)
+
+
 def _has_slits(mesh: ControlMesh, sharp: np.ndarray) -> bool:
     """Whether walls that are less than SLIT apart meet inwards, by no `sharp` edge, as between fingers."""
     folds, inside = mesh.fold_angles
@@ -124,8 +136,14 @@ def _has_floor(parts: Parts, sharp: np.ndarray) -> bool:
 def _rises(mesh: ControlMesh, here: np.ndarray, there: np.ndarray) -> np.ndarray:
     """(e,) how far the faces `there` rise above those `here` on the outside, times twice their areas."""
     vectors, middles = mesh.face_vectors, mesh.face_centres
-    outwards = np.sign((vectors * (middles - middles.mean(axis=0))).sum())
-    return np.asarray(outwards * (vectors[here] * (middles[there] - middles[here])).sum(axis=1))
+    rise = (vectors[here] * (middles[there] - middles[here])).sum(axis=1)
+    return np.asarray(_outwards(mesh) * rise)
+
+
+def _outwards(mesh: ControlMesh) -> float:
+    """1 if the faces look outwards, -1 if inwards."""
+    middles = mesh.face_centres
+    return float(np.sign((mesh.face_vectors * (middles - middles.mean(axis=0))).sum()))
 
 
 def _has_rims(mesh: ControlMesh, flats: np.ndarray) -> bool:

@@ -72,8 +72,8 @@ class CommonSettings(TypedDict, total=False):
         choice({**_native.Interpolation.__members__, "auto": _native.Interpolation.exact}),
     ]
     """None: approximate where there is a tolerance or weights, else exact. Auto: as None, but unless other
-    settings exclude it, for closed meshes with flat faces at tight rims or in hollows, or slits, such as
-    mugs and hands, limit; for those bevelled all around, such as cans and cups, `flat_faces` as
+    settings exclude it, for closed meshes with flat faces at tight rims or in hollows, or slits, such as mugs, and
+    for meshes whose walls would swell into each other, such as hands, limit; for closed ones bevelled all around, such as cans and cups, `flat_faces` as
     find_flats() has them and a `metric_exponent` of 0.95 at least. Exact: control vertices stay, to the last bit.
     Approximate: they move, within `tolerance` or against `weights`; vertices on curves always stay. Limit: the surface passes exactly through the vertices' limit positions,
     where Catmull-Clark subdivision would take them, and charts are made of the surface through these:
