@@ -84,11 +84,4 @@ void fill_long(T* to, std::size_t size, T value) {
       size, [&](std::size_t begin, std::size_t end) { std::fill(to + begin, to + end, value); });
 }
 
-template <class From, class To>
-void copy_long(const From* from, std::size_t size, To* to) {
-  for_stretches(size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) to[i] = To(from[i]);
-  });
-}
-
 }  // namespace fairing

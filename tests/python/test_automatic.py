@@ -21,9 +21,7 @@ def test_a_chamfered_cylinder_stays_one(fans):
 
 
 def prongs(degrees, gap=0.0, rows=3):
-    """(vertices, quads): two prongs side by side on a block, with a slit whose walls are `gap` apart at its bottom, and
-    lean outwards to be `degrees` apart.
-    """
+    """(vertices, quads): two prongs on a block; the walls of their slit, `gap` apart below, open by `degrees`."""
     z = np.arange(-1, rows) * 0.6
     inner = np.maximum(z, 0.0) * np.tan(np.radians(degrees / 2)) + gap / 2
     columns = [(-np.ones(rows + 1), -inner, rows), (inner, np.ones(rows + 1), rows)]
