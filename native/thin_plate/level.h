@@ -55,6 +55,8 @@ class ThinPlateLevel final : public LevelOperator {
     invert_diagonal();
   }
   bool is_measured() const { return surface_ != nullptr; }
+  // Of the metric of a surface: one number a point.
+  const Array<float>& penalty() const { return surface_->penalty; }
   // r += P reference, in the metric of a surface.
   void add_penalty(const double* reference, double* r) const {
     for_each_index(shared_.workers, 3 * points(),

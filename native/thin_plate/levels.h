@@ -79,6 +79,8 @@ class ThinPlateLevels {
   void measure(int level, const double* x, const ThinPlateOptions::Penalty& penalty);
   // The penalty's numbers on a level, 1 a point (SurfaceMetric::penalty).
   Array<float> penalty(int level, const Array<float>& finest);
+  // The penalty of a level that is measured, per point.
+  const Array<float>& penalty(int level) const { return operators_[index(level)]->penalty(); }
   // The reference on a level (thin_plate/surface_rows.h); empty in the control metric.
   Array<double> reference(int level, const PlateData& data);
   // r += P reference, if there is a reference.

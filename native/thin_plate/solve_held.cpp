@@ -20,6 +20,16 @@ bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   return false;
 }
 
+// Whether a point force under the penalty moves a narrower part of the surface than its pad is wide:
+// on a foundation of P per area a plate of unit stiffness gives way over an area of 8 / sqrt(P)
+// [Timoshenko, Woinowsky-Krieger 1959, 57].
+bool is_narrower_than_pads(const Hats& hats, const Array<float>& penalty) {
+  const NormalLoads sums = hats.gather(Array<double>(penalty.begin(), penalty.end()));
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    if (hats.under(v) && hats.total(v) * sums[v][0] > 64) return true;
+  return false;
+}
+
 }  // namespace
 
 HeldLimits ThinPlateSolver::Run::held_limits(int level, const PcgLimits& limits) const {
@@ -62,11 +72,12 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   const Restriction restrict_to_vertices = [&](std::span<const double> y, std::span<Vec3> sums) {
     levels().restrict_to_vertices(level, y.data(), sums);
   };
-  // Rows at a free border may be arbitrarily stiff, and H with them; under a penalty H fades within few
-  // points. Then the prolongation does not approximate H (docs/developers/notes/performance.md), and the
+  // Rows at a free border may be arbitrarily stiff, and H with them; under a strong penalty H is narrow.
+  // Then the prolongation does not approximate H (docs/developers/notes/performance.md), and the
   // vertices' own rows are used.
   const bool reads_own_rows =
-      !reference.empty() || has_free_border(levels().shared().mesh, unknowns);
+      has_free_border(levels().shared().mesh, unknowns) ||
+      (!reference.empty() && hats && is_narrower_than_pads(*hats, levels().penalty(level)));
   const HeldSystem<3> system{
       .workers = workers,
       .size = size(level),
