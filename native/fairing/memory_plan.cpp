@@ -52,7 +52,7 @@ constexpr Costs plate_costs{200, 190, 1100}, curvature_costs{520, 700, 1500},
 // In addition: for a point, with the limit surface beside the plate, or with the sweeps of the back
 // leg; for a factored unknown, with that surface or if control vertices move; for two neighbours of
 // a vertex of high valence.
-constexpr double surface_beside = 470, second_factor = 1200, pair_of_neighbours = 6;
+constexpr double surface_beside = 640, second_factor = 1200, pair_of_neighbours = 6;
 
 const Costs& costs_of(const FairOptions& options) {
   if (options.energy == Energy::thin_plate)

@@ -20,13 +20,13 @@ bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   return false;
 }
 
-// Whether a point force under the penalty moves a narrower part of the surface than its pad is wide:
-// on a foundation of P per area a plate of unit stiffness gives way over an area of 8 / sqrt(P)
-// [Timoshenko, Woinowsky-Krieger 1959, 57].
+// Whether a point force under the penalty moves less of the surface than its pad covers: on a
+// foundation of P per area a plate of unit stiffness holds against it with 8 sqrt(P) [Timoshenko,
+// Woinowsky-Krieger 1959, 57], the foundation under the pad with more.
 bool is_narrower_than_pads(const Hats& hats, const Array<float>& penalty) {
   const NormalLoads sums = hats.gather(Array<double>(penalty.begin(), penalty.end()));
   for (std::size_t v = 0; v < sums.size(); ++v)
-    if (hats.under(v) && hats.total(v) * sums[v][0] > 64) return true;
+    if (hats.under(v) && sums[v][0] > 8 * std::sqrt(sums[v][0] / hats.total(v))) return true;
   return false;
 }
 

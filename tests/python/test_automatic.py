@@ -24,14 +24,13 @@ def prongs(degrees, gap=0.0, rows=3):
     """(vertices, quads): two prongs on a block; the walls of their slit, `gap` apart below, open by `degrees`."""
     z = np.arange(-1, rows) * 0.6
     inner = np.maximum(z, 0.0) * np.tan(np.radians(degrees / 2)) + gap / 2
-    columns = [(-np.ones(rows + 1), -inner, rows), (inner, np.ones(rows + 1), rows)]
-    columns += [(-inner, inner, 1)] if gap else []
+    columns = (0 * z - 1, -inner, rows), (inner, 0 * z + 1, rows), (-inner, inner, 1)
     index, faces = {}, []
 
     def at(x, y, height):
         return index.setdefault((round(x, 9), y, round(height, 9)), len(index))
 
-    for left, right, top in columns:
+    for left, right, top in columns if gap else columns[:2]:
         ring = [(left, -0.5), (right, -0.5), (right, 0.5), (left, 0.5)]
         for k in range(top):
             low, high = z[k], z[k + 1]

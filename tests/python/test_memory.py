@@ -73,6 +73,7 @@ CASES = {
     "9,700 points, variation": (meshes.random_hull(40), (4,), VARIATION),
     "even, variation": (egg(), (5,), VARIATION),
     "thin walls at limit positions": (thin_walls.sheet()[:2], (5,), {"interpolation": "limit"}),
+    "a sheet at limit positions": (meshes.wavy_patch(2, 2), (6, 7), {"interpolation": "limit"}),
     # whatever is fixed, merged away or apart
     "ball": (BALL, (2, 3), {}),
     "ball of STL": (apart(BALL), (2, 3), MEND),
