@@ -415,6 +415,13 @@ def open_grid(n=12, gone=()):
     return np.stack([x, y, 0.2 * np.cos(0.7 * x)], 1).astype(float), quads, kept
 
 
+def test_a_rim_that_runs_along_a_seam_is_left():
+    """A tube whose vertices are twice at its seam, as in a file with UV maps."""
+    turn, height = np.meshgrid(np.arange(17) % 16 * np.pi / 8, np.arange(5))
+    tube = np.stack([np.cos(turn), np.sin(turn), height], -1).reshape(-1, 3)
+    assert skipped(tube, lattice_faces(5, 17)).cure == "merge"
+
+
 def test_one_bad_hole_stops_no_other():
     """Two sound holes, an edge with a third face, a face that looks the other way, and a slit."""
     vertices, quads, kept = open_grid(16, [(2, 2), (2, 8), (8, 2), (12, 12)])

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -18,6 +19,14 @@ namespace {
 
 // Sweeps that smooth the requested lengths along a ragged rim.
 constexpr int length_sweeps = 2;
+
+FairingError coincide(std::vector<std::int64_t> ids) {
+  std::sort(ids.begin(), ids.end());
+  return FairingError(
+      ErrorCode::coincident_vertices,
+      {"{vertex} of the rim coincide; the hole has no width there.", "Merge them by distance."},
+      ids);
+}
 
 // The first triangles of one hole. It numbers the vertices of its loops, one loop after another.
 class OneHole {
@@ -49,6 +58,22 @@ class OneHole {
       for (int sweep = 0; sweep < length_sweeps; ++sweep) even_out(patch.lengths, l);
     }
     return patch;
+  }
+
+  // Rejects a rim that returns along itself, as at the seams of a file that has their vertices twice.
+  void require_width(const Patch& rim) const {
+    using Point = std::array<double, 3>;
+    std::map<std::pair<Point, Point>, std::size_t> sides;
+    const auto point = [&](std::size_t i) {
+      return Point{rim.points[i][0], rim.points[i][1], rim.points[i][2]};
+    };
+    for (std::size_t l = 0; l + 1 < begin_.size(); ++l)
+      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i) {
+        const std::size_t next = after(i, l);
+        const auto [other, is_first] = sides.try_emplace(std::minmax(point(i), point(next)), i);
+        const std::size_t twin = other->second;
+        if (!is_first) throw coincide({ids_[twin], ids_[point(twin) == point(i) ? i : next]});
+      }
   }
 
   // Returns how refine() may move new points: between two rims taut triangles would shrink to a waist.
@@ -247,12 +272,7 @@ void require_areas(const Patch& patch, const OneHole& hole) {
       if (const Index a = t[i], b = t[(i + 1) % 3];
           sides[i].isZero() && a < patch.rim && b < patch.rim)
         ids = {hole.ids()[a], hole.ids()[b]};
-    std::sort(ids.begin(), ids.end());
-    if (!ids.empty())
-      throw FairingError(
-          ErrorCode::coincident_vertices,
-          {"{vertex} of the rim coincide; the hole has no width there.", "Merge them by distance."},
-          ids);
+    if (!ids.empty()) throw coincide(ids);
     if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim) ids = {hole.ids()[middle]};
     throw FairingError(
         ErrorCode::degenerate_face,
@@ -265,6 +285,7 @@ void require_areas(const Patch& patch, const OneHole& hole) {
 FilledHole fill_one(const Hole& hole, Rims& rims, const FillOptions& options, std::int64_t first) {
   OneHole one(hole, rims);
   Patch patch = one.rim(options.density);
+  one.require_width(patch);
   const Relaxation relaxation = one.triangulate_into(patch, options.bends && options.density > 0);
   refine_patch(patch, one, options, relaxation);
   require_areas(patch, one);
