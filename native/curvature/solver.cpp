@@ -72,7 +72,9 @@ CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& pla
   const std::span<const Vec3> given =
       level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
   choose_start(iterate_, level, pads_, plate, plate_below, std::move(reference), given, report);
-  if (varies() && straighten_thin_rows(iterate_)) report.start_energy = iterate_.op().objective();
+  // Rows are those of a reference, from which points moved along the surface would not come back.
+  if (varies() && !iterate_.op().penalty() && straighten_thin_rows(iterate_))
+    report.start_energy = iterate_.op().objective();
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
   CurvedSurface out;

@@ -199,14 +199,14 @@ class StepLoop {
     return out;
   }
 
-  // Whether plain steps have climbed too long, or damped ones gain next to nothing. The work of the
+  // Whether steps have climbed too long, or damped ones gain next to nothing. The work of the
   // loads differs from step to step, so changes of the potential are summed.
   bool leads_nowhere(const StepReport& step) {
     if (step.decrement < damped_decrement) return false;
     gained_ += gain_;
     const double last = std::exchange(last_gain_, gain_);
-    if (damping_)
-      return end_.gain > 0 && ++damped_ > 1 && step.decrement < settling_decrement &&
+    if (end_.gain > 0)
+      return ++damped_ > 1 && step.decrement < settling_decrement &&
              last + gain_ < end_.gain * it_.current.energy;
     climbed_ = gained_ > most_gained_ ? 0 : climbed_ + 1;
     most_gained_ = std::max(most_gained_, gained_);

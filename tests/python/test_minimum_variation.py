@@ -55,6 +55,25 @@ def test_steps_go_on_while_solves_are_unfinished():
     assert report["variation"] < 3.3
 
 
+def vaulted(length: float, height: float):
+    """Six by six quads of this length, of unit width."""
+    flat, faces = meshes.grid(6, 6)
+    z = -height * (flat[:, 1] - 3) ** 2 - 0.2 * (flat[:, 0] - 3) ** 2
+    return flat * [length, 1, 0] + np.outer(z, [0, 0, 1]), faces
+
+
+def test_long_faces_at_limit_positions_do_not_keep_their_start():
+    """Rows that were straight, and the subdivision surface's are not, took the steps elsewhere."""
+    limit = df.fair(*vaulted(8, 0.6), energy="minimum_variation", interpolation="limit")
+    assert finest(limit)["converged"]
+
+
+def test_steps_that_climb_end_near_the_least_variation_that_they_found():
+    report = finest(df.fair(*vaulted(5, 0.6), 1, energy="minimum_variation"))
+    found = [s["energy"] for s in report["steps"] if s["functional"] == "minimum_variation"]
+    assert not report["kept_start"] and report["variation"] < 1.03 * min(found)
+
+
 def test_a_patch_of_a_sphere_is_found():
     """Six by six quads on a sphere, whose borders do not lie on it: the middle is compared."""
     at = np.linspace(-0.6, 0.6, 7)
