@@ -27,11 +27,9 @@ PEAK = 1.5  # over the ring's mean
 def control_meshes() -> Iterator[tuple[str, np.ndarray, Any, int]]:
     """Yields name, vertices, polygons and levels of each mesh."""
     yield "creature", *from_tests.small_meshes().creature(), 3
-    mesh_files, shared_data = from_tests.readers()
     for name, (file, levels) in COLLECTED.items():
-        paths = sorted((shared_data.SHARED / "good" / "cages").glob(f"*{file}"))
-        if paths:
-            yield name, *mesh_files.read_mesh(paths[0]), levels
+        if mesh := from_tests.collected(file):
+            yield name, *mesh, levels
         else:
             print(f"peaks: {file} is not here.")
 

@@ -23,13 +23,6 @@ COMPETITORS = {
 }
 
 
-def collected(name: str) -> Any:
-    """Vertices and faces of a mesh of the collection beside the project; None if it is absent."""
-    files, data = from_tests.readers()
-    found = sorted((data.SHARED / "good").rglob(f"*{name}"))
-    return files.read_mesh(found[0]) if found else None
-
-
 def cases() -> dict[str, tuple[Callable[[], Any], int]]:
     """{name: (maker of the mesh, levels)}."""
     bob, cat, hand = "bob_small.ply", "cat_head.obj", "hand_lowres.obj"
@@ -38,9 +31,9 @@ def cases() -> dict[str, tuple[Callable[[], Any], int]]:
         "rough sphere, 720 faces, 3": (partial(meshes.sphere, 6), 3),
         "torus, 10 x 8 quads, 3": (partial(meshes.quad_torus, 10, 8), 3),
         "hull, 76 faces, 5": (partial(meshes.hull, 40), 5),
-        "bob, 3": (partial(collected, bob), 3),
-        "cat head, 3": (partial(collected, cat), 3),
-        "hand, 2": (partial(collected, hand), 2),
+        "bob, 3": (partial(from_tests.collected, bob), 3),
+        "cat head, 3": (partial(from_tests.collected, cat), 3),
+        "hand, 2": (partial(from_tests.collected, hand), 2),
         "Suzanne, 2": (side_by_side.suzanne, 2),
         "Suzanne, 3": (side_by_side.suzanne, 3),
     }

@@ -7,6 +7,7 @@ import importlib.util
 import sys
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
@@ -63,6 +64,20 @@ def _beside_own_meshes(name: str, folder: Path) -> ModuleType:
 def readers() -> tuple[ModuleType, ModuleType]:
     """mesh_files and shared_data."""
     return importlib.import_module("mesh_files"), importlib.import_module("shared_data")
+
+
+def collected(name: str) -> Any:
+    """Vertices and polygons of a mesh of the collection beside the project; None if it is absent."""
+    files, data = readers()
+    found = sorted((data.SHARED / "good").rglob(f"*{name}"))
+    if not found or found[0].suffix != ".ply":
+        return files.read_mesh(found[0]) if found else None
+    import pymeshlab
+
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(found[0]))
+    mesh = meshes.current_mesh()
+    return mesh.vertex_matrix(), [list(map(int, face)) for face in mesh.polygonal_face_list()]
 
 
 def ragged_holes() -> ModuleType:

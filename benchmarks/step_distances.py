@@ -22,12 +22,11 @@ NEAREST = 12  # points of the surface, all of whose triangles are looked at
 
 def surfaces():
     """Yields name, mesh and options of each surface."""
-    mesh_files, shared_data = from_tests.readers()
     mesh, creases = from_tests.importlib.import_module("example_meshes").hull()
     yield "hull", mesh, {"crease_edges": creases}
     for file in CAGES:
-        for path in sorted((shared_data.SHARED / "good" / "cages").glob(f"*{file}")):
-            yield file.split(".")[0], mesh_files.read_mesh(path), {}
+        if mesh := from_tests.collected(file):
+            yield file.split(".")[0], mesh, {}
 
 
 def file_points(shape, count: int) -> np.ndarray:

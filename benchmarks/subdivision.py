@@ -42,11 +42,9 @@ def cages() -> Iterator[tuple[str, np.ndarray, list[list[int]]]]:
     """Yields name, vertices and polygons of each cage."""
     yield "Suzanne", *side_by_side.suzanne()
     yield "creature", *from_tests.small_meshes().creature()
-    mesh_files, shared_data = from_tests.readers()
     for file in COLLECTED:
-        paths = sorted((shared_data.SHARED / "good" / "cages").glob(f"*{file}"))
-        if paths:
-            yield file.split(".")[0], *mesh_files.read_mesh(paths[0])
+        if mesh := from_tests.collected(file):
+            yield file.split(".")[0], *mesh
         else:
             print(f"subdivision: {file} is not here.")
 
