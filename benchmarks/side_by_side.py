@@ -99,7 +99,7 @@ def measured(control: np.ndarray, surface: rivals.Surface, inscribed: bool) -> d
         "least_radius": float(radius.min()) if inscribed else None,
         "largest_radius": float(radius.max()) if inscribed else None,
         "off": float(off.max()),
-        "dihedral": measures.largest_dihedral(points, triangles),
+        "dihedral": float(measures.dihedrals(points, triangles).max()),
         "energy": measures.total_curvature(points, triangles) / SPHERE,
         "triangles": len(triangles),
     }
