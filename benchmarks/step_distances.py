@@ -30,9 +30,12 @@ def surfaces():
 
 
 def file_points(shape, count: int) -> np.ndarray:
-    """(k, 3) points of a file's faces, evenly in their parameters, `count` in all and a few more."""
+    """(k, 3) points of a file's faces, evenly in their parameters: `count` and a few more, less those outside of a plane's rim."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.BRepClass import BRepClass_FaceClassifier
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.gp import gp_Pnt2d
+    from OCP.TopAbs import TopAbs_ShapeEnum, TopAbs_State
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
 
@@ -41,6 +44,11 @@ def file_points(shape, count: int) -> np.ndarray:
         cast = getattr(TopoDS, "Face_s", None) or TopoDS.Face
         faces.append(BRepAdaptor_Surface(cast(search.Current())))
         search.Next()
+
+    def is_inside(face, place) -> bool:
+        state = BRepClass_FaceClassifier(face.Face(), gp_Pnt2d(*place), 1e-9).State()
+        return state != TopAbs_State.TopAbs_OUT
+
     each = int(np.ceil(np.sqrt(count / len(faces))))
     found = []
     for face in faces:
@@ -51,7 +59,10 @@ def file_points(shape, count: int) -> np.ndarray:
                 (face.FirstVParameter(), face.LastVParameter()),
             )
         )
-        found += [face.Value(float(a), float(b)).Coord() for a in u for b in v]
+        places = [(float(a), float(b)) for a in u for b in v]
+        if face.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:  # others end with their parameters
+            places = [p for p in places if is_inside(face, p)]
+        found += [face.Value(*place).Coord() for place in places]
     return np.array(found)
 
 
